@@ -29,7 +29,7 @@ from checker.package.ros_1_target import ros_1_target
 from checker.package.simulator_signs import CLASSIC
 from checker.package.target import MODEL, ROS_1, ROS_2, ros_2_package, usual_profile
 from checker.rule import Rule
-from checker.rulebook.profiles import distro_names, gazebo_profile, profile_names
+from checker.rulebook.profiles import Profile, distro_names, gazebo_profile, profile_names
 from checker.rulebook.profiles import profile as profile_of
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
 from checker.rulebook.suppression.entries import SettingsEntry, entries_of
@@ -168,6 +168,11 @@ class Settings(Record):
             gazebo=target.gazebo,
             target_reason=reason,
         )
+
+    @property
+    def judge_profile(self) -> Profile:
+        """The profile, for the distribution and the release of Gazebo that are set."""
+        return profile_of(self.profile, self.distro, self.gazebo)
 
     @property
     def description(self) -> str:

@@ -16,7 +16,6 @@ from checker.editor.positions import Columns
 from checker.editor.session import Session, State, path_in
 from checker.rule import Context, Rule
 from checker.rulebook.discovery import all_rules
-from checker.rulebook.profiles import profile
 
 _KINDS = {
     CompletionKind.ELEMENT: lsp.CompletionItemKind.Class,
@@ -114,8 +113,7 @@ def completions(
 
 def target_of(checked: Checked) -> Context:
     """Return what a package is judged for."""
-    settings = checked.settings
-    return profile(settings.profile, settings.distro, settings.gazebo).context
+    return checked.settings.judge_profile.context
 
 
 def _item(found: Completion, document: Document, columns: Columns) -> lsp.CompletionItem:

@@ -6,14 +6,12 @@ from checker.base.resources import table
 from checker.formats.sdf.schema import VERSIONS
 from checker.package.package import Package
 from checker.rule import Context
-from checker.rulebook.profiles import profile
 from checker.settings import Settings
 
 
 def usual_target(package: Package) -> Context:
     """Return the target of a package for which the user names none."""
-    settings = Settings().for_package(package)
-    return profile(settings.profile, settings.distro, settings.gazebo).context
+    return Settings().for_package(package).judge_profile.context
 
 
 def plugin_releases(target: Context) -> tuple[str, ...]:

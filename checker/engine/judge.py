@@ -13,7 +13,7 @@ from checker.formats.urdf.second_reading import SecondReading
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.report.report import NO_TRIAL, Cause, NotChecked
 from checker.rule import Context, Finding, Rule
-from checker.rulebook.profiles import Profile, profile
+from checker.rulebook.profiles import Profile
 from checker.settings import Settings
 
 _THOROUGH = frozenset(map(type_name, (RepeatedTrial, SecondReading)))
@@ -36,7 +36,7 @@ class Judge(Record):
     @classmethod
     def from_settings(cls, settings: Settings) -> Judge:
         """Return the judge with the profile that the settings name."""
-        return cls(profile(settings.profile, settings.distro, settings.gazebo), settings)
+        return cls(settings.judge_profile, settings)
 
     @property
     def context(self) -> Context:

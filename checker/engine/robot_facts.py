@@ -37,7 +37,6 @@ from checker.ros.ros2_control.robot_control import RobotControl
 from checker.ros.simulated_topics import unknown_owner
 from checker.ros.wiring.classic import unknown_plugin
 from checker.ros.wiring.wiring import Wiring
-from checker.rulebook.profiles import profile
 from checker.settings import Settings
 
 _ROS_1 = "urdf"
@@ -104,7 +103,7 @@ def _unread_files(subject: Subject) -> Iterator[NotRead]:
 def _robot(
     robot: Robot, overview: Mapping[str, Any], control: RobotControl | None, settings: Settings
 ) -> RobotFacts:
-    release = profile(settings.profile, settings.distro, settings.gazebo).context.release
+    release = settings.judge_profile.context.release
     known_topics = settings.profile != _ROS_1
     unweighed = robot.unweighed
     shown = {name: value for name, value in overview.items() if name not in ("robot", "file")}

@@ -72,7 +72,7 @@ class ReleasedNames:
         if len(same := self._by_words.get(_words(name), [])) == 1:
             return same[0]
         near = self._suggestions.correction(name) if len(name) >= _SHORTEST else None
-        alike = near is not None and near[:_PREFIX] == name[:_PREFIX] and _is_one_slip(name, near)
+        alike = near is not None and _is_one_slip(name, near)
         return near if alike else None
 
     def vendor_of(self, name: str) -> str | None:
@@ -91,6 +91,8 @@ def _shared(one: str, other: str) -> int:
 
 
 def _is_one_slip(name: str, known: str) -> bool:
+    if name[:_PREFIX] != known[:_PREFIX]:
+        return False
     begin = _shared(name, known)
     end = _shared(name[begin:][::-1], known[begin:][::-1])
     rest = name[begin : len(name) - end], known[begin : len(known) - end]
@@ -107,9 +109,7 @@ def slip_of(name: str, known: Iterable[str]) -> str | None:
     near = [
         other
         for other in known
-        if len(name) >= _SHORTEST
-        and name[:_PREFIX] == other[:_PREFIX]
-        and _is_one_slip(name, other)
+        if len(name) >= _SHORTEST and _is_one_slip(name, other)
         if sorted(name) == sorted(other) or len(name) != len(other)
         if [*filter(str.isdigit, name)] == [*filter(str.isdigit, other)]
     ]

@@ -86,7 +86,7 @@ def configured_controllers(
 ) -> tuple[ConfiguredControllers, ...] | NotAvailable:
     """Return the controllers of each robot, or those of launch files if no robot can be read."""
     if not isinstance(controls, NotAvailable):
-        return tuple(ConfiguredControllers(it.files, it.robot) for it in controls)
+        return tuple(it.configured for it in controls)
     files = tuple(reader.launched_files()) if controls.applicable else ()
     return (ConfiguredControllers(files),) if files else controls
 

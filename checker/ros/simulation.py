@@ -66,11 +66,15 @@ class Simulation(Record, eq=False, dict=True):
         """Reasons why the world is not known; empty if no Gazebo is started."""
         return tuple(server.unknown for server in self.servers if server.unknown)
 
+    def given(self, robot: Robot) -> list[Robot]:
+        """Return a robot as the launch file gives it to Gazebo, for each time that it does so."""
+        file = robot.document.source.file
+        spawned = (it.robot for it in (*self.robots, *self.classic_robots))
+        return [it for it in spawned if it.document.source.file == file]
+
     def worlds_of(self, robot: Robot) -> tuple[World | None, ...]:
         """Return the worlds into which it spawns a robot; None for one that is not known."""
-        spawned = (*self.robots, *self.classic_robots)
-        file = robot.document.source.file
-        if not any(each.robot.document.source.file == file for each in spawned):
+        if not self.given(robot):
             return ()
         return (*self.worlds, *([] if self.worlds and not self.unknown_worlds else [None]))
 
@@ -188,9 +192,7 @@ class Simulations(Record, eq=False):
 
     def given(self, robot: Robot) -> list[Robot]:
         """Return a robot as launch files give it to Gazebo, each with its own arguments."""
-        file = robot.document.source.file
-        spawned = (it for each in self.launched for it in (*each.robots, *each.classic_robots))
-        return [it.robot for it in spawned if it.robot.document.source.file == file]
+        return [it for each in self.launched for it in each.given(robot)]
 
 
 def simulations(package: Package, launch: Ros2Launch | None, reader: SpawnedReader) -> Simulations:

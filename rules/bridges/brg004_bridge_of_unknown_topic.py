@@ -6,8 +6,8 @@ spawning program sets the name of the model.
 
 The rule needs all robots that the launch file spawns. It reports a topic if everything that the
 launch file starts is known, or if the robot has a topic with this message that is not bridged,
-whatever models of the world are not available.
-Topics in the robot's files that an argument switches off are skipped.
+whatever models of the world are not available. Topics in the robot's files that an argument
+switches off are skipped.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.

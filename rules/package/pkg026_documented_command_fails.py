@@ -14,6 +14,7 @@ Source: ros2launch, `get_share_file_path_from_package`; roslaunch, `resource_exc
 
 import posixpath
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from checker.package.files_above import README, files_above, own_files
@@ -77,11 +78,15 @@ def _launches(source: SourceText, packages: Sequence[Package]) -> Iterator[Findi
 def _of_no_package(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
     """Report commands of packages that exist nowhere; judged once, for the first package."""
     commands = [*_COMMAND.finditer(source.text)]
+    told = Counter(_WORD.findall(source.text))
+    told -= Counter(word for it in commands for word in _WORD.findall(it.group()))
     for command in commands:
         name, file = command.groups()
-        named = sum(_WORD.findall(it.group()).count(name) for it in commands)
-        told = _WORD.findall(source.text).count(name) > named
-        if told or any(_has(it, file) for it in packages) or not is_nowhere(packages[0], name):
+        if (
+            told[name]
+            or any(_has(it, file) for it in packages)
+            or not is_nowhere(packages[0], name)
+        ):
             continue
         yield finding(
             Span(source, *command.span(1)),

@@ -80,7 +80,8 @@ def check(
             if _RATE not in read:
                 names["updateRate"] = _RATE_OF_SENSOR
             lost = {n: names[n] for n in names if n not in read}
-            found = _parameters(plugin, lost, package, _sent_topics(host, plugin))
+            sent = _sent_topics(host, plugin) if lost else ()
+            found = _parameters(plugin, lost, package, sent)
             yield from map(_slight, found) if is_shown else found
 
 

@@ -20,7 +20,7 @@ from checker.launch.ros2.graph import Node
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.ros.robot_description import NAME
-from checker.ros.ros2_control.distributions import ORDER, is_from
+from checker.ros.ros2_control.distributions import ORDER, is_from, named_distribution
 from checker.ros.ros2_control.launched import LaunchedControl
 from checker.ros.transforms import STATE_PUBLISHER
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
@@ -30,9 +30,7 @@ from checker.rulebook.example_parts import ros2_control
 @rule("R2C018", "managed-robot-without-tag", Severity.ERROR, Concern.INTERFACE)
 def check(launched: LaunchedControl, package: Package, context: Context) -> Findings:
     """Report each ros2_control_node that certainly gets a robot without a <ros2_control> tag."""
-    sign = package.distribution_sign
-    named = sign.distro if sign is not None else ""
-    distribution = context.distro if context.distro_is_known else named
+    distribution = named_distribution(package, context)
     by_topic = distribution in ORDER and is_from(distribution, "jazzy")
     for node in launched.managers:
         robots = _robots(launched, node, by_topic=by_topic)

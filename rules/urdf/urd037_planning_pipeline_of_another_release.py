@@ -22,7 +22,7 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.package.package import Package
-from checker.ros.ros2_control.distributions import ORDER
+from checker.ros.ros2_control.distributions import ORDER, named_distribution
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.source.yaml import YamlNode, read_root
 
@@ -43,8 +43,7 @@ class _Fault(Record):
 @rule("URD037", "planning-pipeline-of-another-release", Severity.ERROR, Concern.INTERFACE)
 def check(package: Package, context: Context) -> Findings:
     """Report pipelines that the distribution does not read, each at the first place."""
-    sign = package.distribution_sign
-    named = context.distro if context.distro_is_known else (sign.distro if sign else "")
+    named = named_distribution(package, context)
     if named not in (*_SINCE_JAZZY, "humble"):
         return
     others = {it for it in ORDER if it != named}

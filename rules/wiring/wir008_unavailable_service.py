@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from checker.base.words import and_list
 from checker.launch.ros2.graph import LaunchGraph, Node, Ros2Launch
 from checker.package.package import Package
-from checker.ros.ros2_control.distributions import ORDER, is_from
+from checker.ros.ros2_control.distributions import ORDER, is_from, named_distribution
 from checker.ros.wiring.facts import NodeFacts, node_facts, program_of
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.services import STATE, Wanted, offered_services, wanted_services
@@ -71,9 +71,8 @@ def check(wiring: Wiring, launch: Ros2Launch, package: Package, context: Context
 
 
 def _distribution(package: Package, context: Context) -> str:
-    """Return the distribution that the user or the package names; empty if none."""
-    sign = package.distribution_sign
-    named = context.distro if context.distro_is_known else (sign.distro if sign else "")
+    """Return the distribution that the user or the package names; empty if that is not known."""
+    named = named_distribution(package, context)
     return named if named in ORDER else ""
 
 

@@ -37,8 +37,9 @@ def check(wirings: Wirings, *, part: float = 0.95) -> Findings:
             is within the base; less is reported.
     """
     for wiring in wirings.all:
-        robots = _robots((wiring,)) if _publishers(wiring) else _robots(wirings.all)
-        if _publishers(wiring) > 1 or not robots:
+        publishers = _publishers(wiring)
+        robots = _robots((wiring,) if publishers else wirings.all)
+        if publishers > 1 or not robots:
             continue
         for node in wiring.nodes:
             name, settings = costmap_of(node)

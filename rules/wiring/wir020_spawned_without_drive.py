@@ -31,8 +31,8 @@ def check(wiring: Wiring) -> Findings:
         if not spawned.node.starts or _is_moved(spawned):
             continue
         wheels = {link.scoped_name for link in robot.wheels}
-        idle = [it for it in robot.tree.ties if it.joint.type.value == "continuous"]
-        rolling = [repr(it.child) for it in idle if it.child in wheels]
+        turning = (it.child for it in robot.tree.ties if it.joint.type.value == "continuous")
+        rolling = [repr(child) for child in turning if child in wheels]
         joints = [it.name.value for it in robot.joints if it.type.value in _OF_ARMS]
         if len(rolling) >= _FEWEST:
             lacks = f"a drive: no plugin and no ros2_control turns {and_list(rolling)}"

@@ -19,7 +19,7 @@ issue 1138 and "Migration: Iron to Jazzy"; mjforan/rm_motors_ros, pull request 2
 """
 
 from checker.package.package import Package
-from checker.ros.ros2_control.distributions import ORDER, is_from
+from checker.ros.ros2_control.distributions import ORDER, is_from, named_distribution
 from checker.ros.spawned import EVERY_SPAWN
 from checker.ros.transforms import STATE_PUBLISHER
 from checker.ros.wiring.nodes import WiredNode
@@ -36,9 +36,7 @@ _DESCRIPTION = "std_msgs/msg/String"
 @rule("WIR023", "manager-without-description", Severity.ERROR, Concern.INTERFACE)
 def check(wiring: Wiring, package: Package, context: Context) -> Findings:
     """Report each ros2_control_node that gets no description from its launch file."""
-    sign = package.distribution_sign
-    named = sign.distro if sign is not None else ""
-    distribution = context.distro if context.distro_is_known else named
+    distribution = named_distribution(package, context)
     publishers = [it for it in wiring.nodes if it.node.package.value == STATE_PUBLISHER]
     if any(it.program in _SPAWNS for it in wiring.nodes):
         return

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.parts import NotAvailable
 from checker.launch.ros2.graph import LaunchFaultKind, LaunchGraph, Ros2Launch
-from checker.launch.ros2.package_files import PYTHON_ENTRY, is_python_launch
+from checker.launch.ros2.package_files import PYTHON_ENTRY
 from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.source.text import SourceText
@@ -108,7 +108,7 @@ def launch_files(package: Package) -> Iterator[str]:
         if lower.endswith(".py") and "launch" in lower:
             if _holds(package, path, PYTHON_ENTRY):
                 yield path
-        elif lower.endswith(".launch") and _is_python(package, path):
+        elif lower.endswith(".launch") and _holds(package, path, PYTHON_ENTRY):
             yield path
         elif lower.endswith((".launch.yaml", ".launch.yml", "_launch.yaml", "_launch.yml")):
             if _holds(package, path, _YAML):
@@ -117,11 +117,6 @@ def launch_files(package: Package) -> Iterator[str]:
             lower.endswith((".launch", ".xml")) and "launch" in lower and is_ros2_xml(package, path)
         ):
             yield path
-
-
-def _is_python(package: Package, path: str) -> bool:
-    source = package.read(path)
-    return isinstance(source, SourceText) and is_python_launch(source)
 
 
 def _holds(package: Package, path: str, pattern: re.Pattern[str]) -> bool:

@@ -25,7 +25,11 @@ _LEANS_FAR = math.radians(15.0)
 
 def collision_points(robot: Robot) -> list[Vector]:
     """Return the points of all collisions that may touch the ground, in metres."""
-    return [point for points in _points_of_links(robot).values() for point in points]
+    return _all_points(_points_of_links(robot))
+
+
+def _all_points(of_links: Mapping[str, Sequence[Vector]]) -> list[Vector]:
+    return [point for points in of_links.values() for point in points]
 
 
 def _points_of_links(robot: Robot) -> dict[str, list[Vector]]:
@@ -99,7 +103,7 @@ def high_parts(robot: Robot, centre: Vector, ground: float) -> HighParts | None:
         ground: z of the ground below its lowest part, metres.
     """
     of_links, below = _points_of_links(robot), (centre[0], centre[1])
-    sides = [*_lower_sides(collision_points(robot), centre, _LEANS_FAR)]
+    sides = [*_lower_sides(_all_points(of_links), centre, _LEANS_FAR)]
     under = [it for it in sides if margin(_outline([it]), below) >= -TOUCHES]
     touching = {point for side in under for point in side.points}
     gaps = {

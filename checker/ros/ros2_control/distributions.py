@@ -10,6 +10,7 @@ from msgspec import convert, field
 
 from checker.base.record import Record
 from checker.base.resources import table
+from checker.package.package import Package
 from checker.rule import Context
 
 DEFAULT = "jazzy"
@@ -30,6 +31,13 @@ def distribution_of(context: Context) -> str:
         if entry["distro"] != "iron"
     }
     return context.distro or of_release.get(context.release, DEFAULT)
+
+
+def named_distribution(package: Package, context: Context) -> str:
+    """Return the ROS 2 distribution that the user or the package names; empty if neither does."""
+    sign = package.distribution_sign
+    named = sign.distro if sign is not None else ""
+    return context.distro if context.distro_is_known else named
 
 
 def is_from(distribution: str, first: str) -> bool:

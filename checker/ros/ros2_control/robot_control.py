@@ -98,6 +98,23 @@ class PluginFiles(Record, eq=False):
     unread: tuple[str, ...]
 
 
+class ConfiguredControllers(Record, eq=False, dict=True):
+    """The controllers that files of parameters configure.
+
+    Attributes:
+        files: The files.
+        robot: The robot that they move; None if it cannot be read, and launch files name the files.
+    """
+
+    files: tuple[ControllerFile, ...]
+    robot: Robot | None = None
+
+    @cached_property
+    def controllers(self) -> tuple[Controller, ...]:
+        """Controllers in the files."""
+        return controllers_of(self.files)
+
+
 class RobotControl(Record, eq=False, dict=True):
     """ros2_control of one robot.
 
@@ -130,9 +147,14 @@ class RobotControl(Record, eq=False, dict=True):
         return not self.is_named and len(self.files) > 1
 
     @cached_property
+    def configured(self) -> ConfiguredControllers:
+        """What the files configure."""
+        return ConfiguredControllers(self.files, self.robot)
+
+    @property
     def controllers(self) -> tuple[Controller, ...]:
         """Controllers in the files."""
-        return controllers_of(self.files)
+        return self.configured.controllers
 
     @cached_property
     def joints(self) -> Mapping[str, HardwareJoint]:
@@ -158,23 +180,6 @@ class RobotControl(Record, eq=False, dict=True):
             for hardware in self.hardware
             for part in (*hardware.joints, *hardware.sensors, *hardware.gpios)
         )
-
-
-class ConfiguredControllers(Record, eq=False, dict=True):
-    """The controllers that files of parameters configure.
-
-    Attributes:
-        files: The files.
-        robot: The robot that they move; None if it cannot be read, and launch files name the files.
-    """
-
-    files: tuple[ControllerFile, ...]
-    robot: Robot | None = None
-
-    @cached_property
-    def controllers(self) -> tuple[Controller, ...]:
-        """Controllers in the files."""
-        return controllers_of(self.files)
 
 
 # Which files of parameters belong to a robot, and reading them.
