@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
@@ -193,20 +193,26 @@ def data_file_items(setup: SetupFile, index: FileIndex) -> Iterator[tuple[str, s
         if not entry.destination.startswith(_SHARE):
             continue
         below = entry.destination.removeprefix(_SHARE).partition("/")[2]
-        matching = (path for pattern in entry.patterns for path in _matching(pattern, index))
+        files = [file.path for file in index.files]
+        matching = (path for pattern in entry.patterns for path in _matching(pattern, files))
         for origin in (*(file.value for file in entry.files), *matching):
             yield posixpath.normpath(posixpath.join(below, posixpath.basename(origin))), origin
 
 
-def _matching(pattern: Pattern, index: FileIndex) -> Iterator[str]:
-    """Yield the files that `glob` finds: `*` stays within a folder, and so does a plain `**`."""
+def matched_folders(pattern: Pattern, index: FileIndex) -> Iterator[str]:
+    """Yield the folders that `glob` finds; `data_files` takes none."""
+    return _matching(pattern, (it.path for it in index.entries.values() if it.is_folder))
+
+
+def _matching(pattern: Pattern, paths: Iterable[str]) -> Iterator[str]:
+    """Yield the paths that `glob` finds: `*` stays within a folder, and so does a plain `**`."""
     if len(pattern.text) > _PATTERN_LIMIT:
         return
     wanted = posixpath.normpath(pattern.text).split("/")
     deep = pattern.recursive and wanted.count("**") == 1
     at = wanted.index("**") if deep else len(wanted)
-    for file in index.files:
-        parts = file.path.split("/")
+    for path in paths:
+        parts = path.split("/")
         between = len(parts) - len(wanted) + 1
         if not deep and between == 1:
             fitting = zip(parts, wanted, strict=True)
@@ -216,5 +222,11 @@ def _matching(pattern: Pattern, index: FileIndex) -> Iterator[str]:
             )
         else:
             continue
-        if all(fnmatchcase(part, word) for part, word in fitting):
-            yield file.path
+        if all(_fits(part, word) for part, word in fitting):
+            yield path
+
+
+def _fits(name: str, pattern: str) -> bool:
+    """Return whether `glob` matches a name; a hidden one only if the pattern says so."""
+    hidden = name.startswith(".") and not pattern.startswith(".")
+    return not hidden and fnmatchcase(name, pattern)

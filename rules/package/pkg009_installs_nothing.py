@@ -2,14 +2,15 @@
 
 The build stops there with an error, and nothing of the package can be started. This holds for the
 files and folders of `install()`, its targets, the sources of a target, the folder of
-`ament_python_install_package()`, and the files of `data_files`, which takes no folders. In a
-package of ROS 1, a missing file or folder is a warning: only `catkin_make install` needs it. So is
-a source that `.gitignore` excludes: a script may make it before the build. No
-accepted package that we checked has this fault.
+`ament_python_install_package()`, and the files of `data_files`, which takes no folders: a pattern
+such as `glob("launch/*")` must not match one. colcon builds an `ament_python` package by its
+setup.py, so that must exist. In a package of ROS 1, a missing file or folder is a warning: only
+`catkin_make install` needs it. So is a source that `.gitignore` excludes: a script may make it
+before the build. No accepted package that we checked has this fault.
 
-Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*")`, installs the
-files that exist. git does not keep empty folders; `git add -f FILE` adds a file that `.gitignore`
-excludes.
+Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*.yaml")`, installs
+the files that exist; give a folder that a pattern matches an entry of its own. git does not keep
+empty folders; `git add -f FILE` adds a file that `.gitignore` excludes.
 Source: CMake, tested: `cmake --install` ends with "cannot find" for a file or folder, `cmake` with
 "Cannot find source file" or "does not exist" for a source or target; setuptools, tested: "can't
 copy …: doesn't exist or not a regular file".
@@ -23,13 +24,14 @@ from checker.base.record import Record
 from checker.base.words import and_list
 from checker.finding import Fix, Safety
 from checker.package.git_ignored import ignored_by
-from checker.package.installed import GENERATES
+from checker.package.installed import GENERATES, matched_folders
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, replace_text, rule
 from checker.source.cmake import CMakeFile, Install
 from checker.source.cmake_calls import Call
 from checker.source.text import Located
+from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import with_blanks
 
 _UNQUOTED = re.compile(r"[\w./+-]+")
@@ -41,6 +43,7 @@ _USES = re.compile(
     r"|ament_export_\w+|message"
 )
 """Commands that name a target and do not make it."""
+_PYTHON_BUILD = ("setup.py", "setup.cfg", "pyproject.toml")
 _MADE_ELSEWHERE = re.compile(r"[$<*]|^/|^[A-Za-z]:")
 
 
@@ -57,6 +60,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     stops = _build_of(package, context)
     build = paperwork.build
     if build is None:
+        yield from _without_setup(package)
         yield from _of_setup(package, stops)
         return
     yield from _unknown_targets(build, stops)
@@ -109,6 +113,20 @@ def _alike(package: Package, install: Install, item: Located[str]) -> list[str]:
     return [name for name in package.index.similar_files(path) if name not in others]
 
 
+def _without_setup(package: Package) -> Iterator[Finding]:
+    """Report a package that setup.py builds, and that has none."""
+    manifest = package.xml("package.xml")
+    if package.build_type != "ament_python" or any(map(package.exists, _PYTHON_BUILD)):
+        return
+    if isinstance(manifest, XmlDocument):
+        export = manifest.root.child("export")
+        build_type = export.child("build_type") if export is not None else None
+        yield finding(
+            build_type or manifest.root,
+            "colcon build stops: ament_python builds by setup.py, which does not exist: add it",
+        )
+
+
 def _of_setup(package: Package, build: _Build) -> Iterator[Finding]:
     """Report files of `data_files`; a name without file may still be made before the build."""
     for entry in package.setup.data_files if package.setup is not None else ():
@@ -119,6 +137,13 @@ def _of_setup(package: Package, build: _Build) -> Iterator[Finding]:
                 continue
             state = "does not exist" if found is None else "is a folder: data_files takes files"
             yield finding(item, f"{build.name} stops: {item.value} {state}")
+        for pattern in entry.patterns:
+            if folder := next(matched_folders(pattern, package.index), ""):
+                yield finding(
+                    entry,
+                    f"{build.name} stops: glob({pattern.text!r}) matches the folder {folder}, and "
+                    "data_files takes files: match their names, such as '*.py'",
+                )
 
 
 def _unknown_targets(build: CMakeFile, stops: _Build) -> Iterator[Finding]:
@@ -167,7 +192,9 @@ def _missing_modules(package: Package, build: CMakeFile, stops: _Build) -> Itera
             continue
         where = names.index("PACKAGE_DIR") + 1 if "PACKAGE_DIR" in names[:-1] else 0
         folder = call.arguments[where]
-        if not _MADE_ELSEWHERE.search(folder.value) and not package.exists(folder.value):
+        path = posixpath.normpath(folder.value)
+        is_own = path == "." or package.exists(path)
+        if not is_own and not _MADE_ELSEWHERE.search(folder.value):
             yield finding(folder, f"{stops.name} stops: folder {folder.value} does not exist")
 
 
@@ -242,7 +269,18 @@ setup(name="acme_arm", data_files=[
 GOOD = [
     {"CMakeLists.txt": _TARGETS},
     {"CMakeLists.txt": f"{_TARGETS}install(TARGETS other RUNTIME DESTINATION bin)\ninclude(x)\n"},
+    {
+        "CMakeLists.txt": _INSTALL
+        + 'ament_python_install_package(acme PACKAGE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")\n',
+        "__init__.py": "",
+    },
     {"CMakeLists.txt": None, "setup.py": _SETUP},
+    {
+        "CMakeLists.txt": None,
+        "setup.py": _SETUP.replace("none/*", "parts/*.urdf"),
+        "parts/a.urdf": "",
+        "parts/more/a.txt": "",
+    },
     # CMake builds it: setup.py is for catkin.
     {"setup.py": _SETUP.replace("spawner", "none")},
     {"CMakeLists.txt": f"{_INSTALL}install(FILES notes.md DESTINATION share OPTIONAL)\n"},
@@ -268,6 +306,18 @@ BAD = [
     {"CMakeLists.txt": f"{_INSTALL}add_library(driver SHARED src/driver.cpp)  # ^ PKG009\n"},
     {"CMakeLists.txt": f"{_INSTALL}ament_python_install_package(driver)  # ^ PKG009\n"},
     {"CMakeLists.txt": None, "setup.py": _SETUP.replace('spawner.rb"]),', 'x.rb"]),  # ^ PKG009')},
+    {
+        "CMakeLists.txt": None,
+        "setup.py": _SETUP.replace('none/*")),', 'parts/*")),  # ^ PKG009'),
+        "parts/a.urdf": "",
+        "parts/more/a.txt": "",
+    },
+    {
+        "CMakeLists.txt": None,
+        "package.xml": _AMENT.replace("ament_cmake", "ament_python").replace(
+            "</build_type>", "</build_type>  <!-- ^ PKG009 -->"
+        ),
+    },
     {"CMakeLists.txt": None, "setup.py": _SETUP.replace('/spawner.rb"]),', '"]),  # ^ PKG009')},
     {"CMakeLists.txt": _INSTALL.replace("urdf", "urdf meshes  # ^ PKG009")},
     {"CMakeLists.txt": f"{_INSTALL}install(FILES Model.sdf DESTINATION share)  # ^ PKG009\n"},
