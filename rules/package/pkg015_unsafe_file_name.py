@@ -71,13 +71,18 @@ def _letters(package: Package, path: str, severity: Severity | None) -> Iterator
         )
     strange = sorted({letter for letter in name if not letter.isascii()})
     if strange:
-        letters = " ".join(strange)
+        letters = " ".join(map(_shown, strange))
         yield finding(
             package.place(path),
             f"{name!r} has {letters} in its name",
             severity=severity,
             key="ASCII",
         )
+
+
+def _shown(letter: str) -> str:
+    """Return a letter for a message: its code if fonts have no picture of it."""
+    return letter if letter.isprintable() else f"U+{ord(letter):04X}"
 
 
 GOOD = [{"meshes/wheel-2.1_left.dae": "<COLLADA/>"}, {"media/first drive.gif": "GIF89a"}]
