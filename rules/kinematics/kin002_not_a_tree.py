@@ -1,15 +1,20 @@
 """Joints that do not form a tree: a link is its own parent, has two parents or is in a loop.
 
 Simulators place each link by the one joint above it. If a link has a second joint above it, Gazebo
-reports that the link already has a parent and drops the joint. A loop has no root link. No accepted
-package that we checked has this fault.
+reports that the link already has a parent and drops the joint. A loop has no root link. RViz and
+robot_state_publisher read the file: for them the joint written last is the one above the link, and
+the transforms of the others are wrong or missing; so where no simulator is started, a second parent
+is a warning. No accepted package that we checked has this fault.
 
-Fix: remove the extra joint, or swap its parent and child.
-Source: gz-physics, DART's tree of bodies; SDFormat: a joint's parent and child must differ.
+Fix: remove the extra joint, or swap its parent and child. Where each joint is an axis of one link,
+as of an eye that turns and nods, put a link between them: parent, axis, link, axis, child.
+Source: gz-physics, DART's tree of bodies; SDFormat: a joint's parent and child must differ;
+urdfdom, `ModelInterface::initTree`: a later joint replaces the parent without a message.
 """
 
 from collections.abc import Iterator
 
+from checker.base.words import and_list
 from checker.model.robot import Robot
 from checker.model.tree import LinkTree, Tie
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
@@ -25,20 +30,25 @@ def check(robot: Robot, context: Context) -> Findings:
             )
     # A file that is made for no simulator may hold loops: SDFormat itself allows them.
     severity = None if context.release else Severity.WARNING
-    yield from _second_parents(robot.tree, severity)
+    yield from _second_parents(robot.tree, Severity.WARNING if robot.shown_only else severity)
     yield from _loops(robot.tree, severity)
 
 
 def _second_parents(tree: LinkTree, severity: Severity | None) -> Iterator[Finding]:
     for child, (first, *others) in tree.ties_above.items():
-        for other in others:
-            yield finding(
-                other.joint,
-                f"joint {other.joint.name.value!r} makes {other.parent!r} the parent of "
-                f"{child!r}, which already has the parent {first.parent!r}",
-                severity=severity,
-                related=[(first.joint, "the first joint above it")],
-            )
+        if not others:
+            continue
+        names = and_list([repr(tie.joint.name.value) for tie in (first, *others)])
+        yield finding(
+            others[0].joint,
+            f"link {child!r} is the child of {1 + len(others)} joints: {names}; a link has one "
+            "joint above it: put a link between two axes",
+            severity=severity,
+            related=[
+                (first.joint, "the first joint above it"),
+                *((tie.joint, "another joint above it") for tie in others[1:]),
+            ],
+        )
 
 
 def _loops(tree: LinkTree, severity: Severity | None) -> Iterator[Finding]:
@@ -73,5 +83,6 @@ GOOD = [
 BAD = [
     _joints(("base_link", "base_link", _MARK)),
     _joints(("base_link", "arm", ""), ("hand", "arm", _MARK)),
+    _joints(("base_link", "arm", ""), ("hand", "arm", _MARK), ("base_link", "arm", "")),
     _joints(("arm", "hand", ""), ("hand", "arm", _MARK)),
 ]
