@@ -1,14 +1,15 @@
 """A launch file names a file that its package does not have.
 
 An included file is not started; a node that gets the path ends, or runs without its parameters. The
-name of an included file is written in full, `robot.launch.py` and not `robot`. Worlds and
-parameters in packages that are not available are not checked, nor is what a setup.py that computes
-its `data_files` may install; files that the build generates are
-not checked, nor those that a node writes by the name of its parameter: `output_file`. Launch skips
-a parameter file whose path is empty. MoveItConfigsBuilder stops without the SRDF, kinematics.yaml
-and joint_limits.yaml. Where a condition leaves the action out, for files that only
-RViz shows or that `.gitignore` excludes, for files of a node that has a parameter about saving, and
-for paths passed to a launch file that is not available, unless it starts Gazebo, this is a warning.
+name of an included file is written in full, `robot.launch.py` and not `robot`. The parts of a list,
+as in `[share, 'worlds/a.world']`, are joined without a `/`. Worlds and parameters in packages that
+are not available are not checked, nor is what a setup.py that computes its `data_files` may
+install; files that the build generates are not checked, nor those that a node writes by the name of
+its parameter: `output_file`. Launch skips a parameter file whose path is empty.
+MoveItConfigsBuilder stops without the SRDF, kinematics.yaml and joint_limits.yaml. Where a
+condition leaves the action out, for files that only RViz shows or that `.gitignore` excludes, for
+files of a node that has a parameter about saving, and for paths passed to a launch file that is not
+available, unless it starts Gazebo, this is a warning.
 
 A package that no ROS distribution has and package.xml does not declare, and of which every file
 that is used is in this package, is taken as the former name of this package.
@@ -22,7 +23,7 @@ import posixpath
 from collections.abc import Iterator
 
 from checker.finding import Fix
-from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
+from checker.launch.ros2.graph import LaunchGraph, Ros2Launch, SharePath
 from checker.launch.ros2.named_paths import (
     NamedPath,
     is_missing,
@@ -30,6 +31,7 @@ from checker.launch.ros2.named_paths import (
     may_be_installed,
     named_paths,
     unavailable,
+    without_slash,
 )
 from checker.launch.ros2.used_packages import every_use
 from checker.package.dependencies import former_names
@@ -65,6 +67,9 @@ def check(launch: Ros2Launch, package: Package, paperwork: Paperwork) -> Finding
             if named.path.package in former:
                 yield _misnamed(package, named)
                 continue
+            if (meant := without_slash(package, named.path)) is not None:
+                yield _joined(named, meant)
+                continue
             is_data = named.needed and named.path.path.endswith(_DATA)
             if is_data and (why := unavailable(package, named.path)):
                 yield unchecked(f"{named.path} is not read: {why}")
@@ -99,6 +104,16 @@ def _misnamed(package: Package, named: NamedPath) -> Finding:
         f"{named.path.path}: write {name}",
         severity=None if named.needed else Severity.WARNING,
         key=former,
+    )
+
+
+def _joined(named: NamedPath, meant: SharePath) -> Finding:
+    """Return the finding about parts of a path that are joined without a `/`."""
+    return finding(
+        named,
+        f"the file {named.path} does not exist: launch joins the parts of a list without '/'; "
+        f"write '/' before the second part for {meant}",
+        severity=None if named.needed else Severity.WARNING,
     )
 
 
@@ -153,6 +168,12 @@ _STATE = """        Node(package='p', executable='e', parameters=[
 _WORLD = """        IncludeLaunchDescription(PathJoinSubstitution([
             FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']), launch_arguments={
                 'gz_args': ['-r ', in_package('worlds', 'hall.sdf')]}.items()),"""
+
+_CLASSIC = """        DeclareLaunchArgument('world', default_value=[
+            get_package_share_directory('acme_arm_bringup'), '@/hall.world']),
+        IncludeLaunchDescription(PathJoinSubstitution([
+            FindPackageShare('gazebo_ros'), 'launch', 'gazebo.launch.py']), launch_arguments={
+                'world': LaunchConfiguration('world')}.items()),  # ^ LCH001"""
 
 _WHEN = """
         Node(package='p', executable='f', condition=IfCondition('false'), parameters=[
@@ -221,6 +242,8 @@ _NAMED_AS_A_FOLDER = """
         Node(package='rviz2', executable='rviz2',
              arguments=['-d', LaunchConfiguration('view')]),"""
 BAD = [
+    {"@ros2": _CLASSIC.replace("@", "/worlds")},
+    {"@ros2": _CLASSIC.replace("@", "worlds"), "worlds/hall.world": "<sdf version='1.6'/>"},
     {"@ros2": _NAMED_AS_A_FOLDER, "urdf/arm.urdf": '<robot name="arm"/>'},
     {
         "@ros2": True,

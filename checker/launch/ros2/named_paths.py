@@ -26,6 +26,8 @@ from checker.source.text import Located, Span
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
 _SAVES = re.compile(r"(?:\A|[_.])(?:saved?|output|storage|record|write|dump|export)(?:[_.]|\Z)")
 """Names of parameters of what a node writes: `pcd_save.pcd_save_en`, `output_file`."""
+_CLASSIC = "gazebo_ros"
+"""The package whose launch files start Gazebo Classic."""
 _OF_ROS = ("moveit_", "nav2_", "rviz")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
@@ -80,7 +82,8 @@ def _may_start(started: Started) -> bool:
 def _handed_over(include: Include) -> Iterator[NamedPath]:
     """Yield what a launch file is given that is not read; only Gazebo's certainly opens it."""
     target = share_path(include.target.value)
-    needed = include.starts is True and target is not None and target.package in GAZEBO
+    opens = target is not None and target.package in (*GAZEBO, _CLASSIC)
+    needed = opens and include.starts is True
     for value in include.arguments.values():
         for word in value.value.split():
             yield from _paths(word, value.span, needed=needed)
@@ -142,6 +145,27 @@ def is_missing(package: Package, path: SharePath) -> bool:
         return False
     there = holder.exists(path.path) or source_of(holder, path.path) is not None
     return not there and not may_be_made(holder, path.path)
+
+
+def without_slash(package: Package, path: SharePath) -> SharePath | None:
+    """Return the path that is meant where parts are joined without a `/`; None for others.
+
+    Launch joins the parts of a list as they are: `[share_of_arm, 'worlds/a.world']` is a path in
+    `armworlds/`. The package is taken as meant if it has a file or folder of the joined name.
+
+    Args:
+        package: The package being checked.
+        path: A path in a share folder.
+    """
+    if package.named(path.package) is not None:
+        return None
+    others = package.workspace.packages.values()
+    for name in {package.declared_name, *(it.declared_name for it in others)}:
+        rest = path.package.removeprefix(name)
+        holder = package.named(name) if rest != path.package else None
+        if holder is not None and holder.exists(rest):
+            return SharePath(name, f"{rest}/{path.path}" if path.path else rest)
+    return None
 
 
 def unavailable(package: Package, path: SharePath) -> str:
