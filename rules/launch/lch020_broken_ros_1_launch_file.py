@@ -5,9 +5,9 @@ that it does not declare before, where an included file does not exist, gets an 
 declare, or lacks one that it requires, where two nodes get one name with the defaults of all args,
 also through an include, and where the file of a description or of parameters does not exist (a
 warning if its path depends on an arg, which may be given). A node whose package has no program of
-its `type` does not start, and roslaunch goes on without it. Programs without the ending `.py` are
-only reported if the package has one of nearly the same name: CMake may build them. Packages of
-ROS 2 are not checked.
+its `type` does not start, and roslaunch goes on without it; that CMakeLists.txt installs a script
+does not help if the source has none. Programs without the ending `.py` are only reported if the
+package has one of nearly the same name: CMake may build them. Packages of ROS 2 are not checked.
 
 Fix: correct the path, the name of the arg or the `type`; pass an arg with
 `<arg name="…" value="…"/>` inside the include.
@@ -25,6 +25,7 @@ from checker.launch.ros1.graph import LaunchFault, LaunchFaultKind, Node
 from checker.launch.ros1.package_launch import LaunchEntries
 from checker.launch.ros1.substitution import is_known
 from checker.launch.ros2.package_launch import is_ros2_only
+from checker.package.installed import GENERATES
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.ros.control.system import missing_descriptions, missing_parameter_files
@@ -112,7 +113,8 @@ def _without_program(package: Package, node: Node) -> Iterator[Finding]:
         return
     files = {posixpath.basename(file.path) for file in holder.index.files}
     build = _build_text(holder)
-    if node.type in files or node.type in _WORD.findall(build):
+    is_named = node.type in _WORD.findall(build) and not _installs_script(holder, node.type)
+    if node.type in files or is_named:
         return
     is_script = node.type.endswith(".py")
     if is_script or not _NOT_PLAIN.search(build):
@@ -122,6 +124,16 @@ def _without_program(package: Package, node: Node) -> Iterator[Finding]:
         if not near and not is_script:
             return
         yield _not_started(node, near)
+
+
+def _installs_script(holder: Package, name: str) -> bool:
+    """Return whether CMakeLists.txt installs a script of the source, and makes none of its own."""
+    build = holder.build
+    if build is None or not name.endswith(".py") or GENERATES.search(build.source.text):
+        return False
+    scripts = (install.items for install in build.installs if install.kind == "PROGRAMS")
+    names = (item.value for item in chain.from_iterable(scripts) if "$" not in item.value)
+    return name in map(posixpath.basename, names)
 
 
 def _not_started(node: Node, near: str) -> Finding:
@@ -194,6 +206,11 @@ GOOD = [
     ),
 ]
 BAD = [
+    {
+        **_node("follow.py", _MARK),
+        "CMakeLists.txt": "project(acme_arm_description)\n"
+        "install(PROGRAMS scripts/follow.py DESTINATION bin)\n",
+    },
     _launch(f'<param name="rate" value="$(arg rate)"/>{_MARK}'),
     _two("", _MARK),
     _two(' ns="arm"', _MARK, ' ns="arm"'),
