@@ -18,7 +18,7 @@ not declared, if it is near to one of them; so is one whose messages a node impo
 nowhere in a repository of several packages, and nothing there brings it. What a description names
 that no launch file loads, beside one that is loaded, does not count. If a package is not available,
 and this package has every file that it uses of it, or its name in another order, the name is taken
-as the former name of this package.
+as the former name of this package: an info, and a warning where roslaunch stops at its `$(find …)`.
 
 Fix: do not declare a package that exists nowhere: remove its import, or add the package. For each
 other package that is used, add `<exec_depend>` (in format 1 `<run_depend>`), `<depend>` for those
@@ -148,7 +148,7 @@ def check(
                 yield finding(
                     use.place,
                     _renaming_message(package, use, has_files=name in former),
-                    severity=Severity.INFO,
+                    severity=None if name in former and _stops(use) else Severity.INFO,
                     key=name,
                     covered_by=("LCH001", "REF002"),
                 )
@@ -183,10 +183,16 @@ def _plugins(package: Package, context: Context) -> Iterator[Use]:
             yield use
 
 
+def _stops(use: Use) -> bool:
+    """Return whether roslaunch evaluates a use, and stops where the package does not exist."""
+    return use.how.startswith("$(find") and use.place.file.endswith(".launch")
+
+
 def _renaming_message(package: Package, use: Use, *, has_files: bool) -> str:
     own = package.declared_name
     why = f", and {own} has all files that are used of it" if has_files else ""
-    return f"{use.package_name} is not available{why}: expected {own}, if it was renamed"
+    then = ": roslaunch stops here unless another repository has it" if _stops(use) else ""
+    return f"{use.package_name} is not available{why}: expected {own}, if it was renamed{then}"
 
 
 def _has_words_of(package: Package, name: str) -> bool:
