@@ -9,7 +9,7 @@ WORKERS ?= auto
 # A worker takes neighbouring tests, which share fixtures.
 TEST := $(BIN)/pytest -n $(WORKERS) --dist worksteal
 THOROUGH := --hypothesis-profile=thorough
-MORE := browser or service or install or programs or oracle or corpus or root or whole
+MORE := browser or service or install or programs or oracle or corpus or root or slow
 VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=

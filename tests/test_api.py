@@ -42,6 +42,7 @@ def test_each_module_of_a_checkout_has_one_more_name() -> None:
         import_module("subt_check.nothing")
 
 
+@pytest.mark.slow
 def test_type_checkers_see_the_same_names(tmp_path: Path) -> None:
     code = "\n".join(
         f"from subt_check import {name}\nreveal_type({name})" for name in checker.__all__

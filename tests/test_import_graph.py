@@ -115,6 +115,7 @@ def test_nothing_heavy_is_imported_before_it_is_used(folder: str) -> None:
         assert not heavy, f"{path} imports {heavy}"
 
 
+@pytest.mark.slow
 def test_imports_can_be_written_for_the_wheel() -> None:
     """There, `checker` is called `subt_check`: no string names a module in full."""
     hook = runpy.run_path(str(ROOT / "scripts/hatch_build.py"))

@@ -44,6 +44,7 @@ def mutate(text: str, kind: str, where: float, length: int, debris: str) -> str:
             return text[:at]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
 @settings(max_examples=examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())

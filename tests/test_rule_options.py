@@ -109,6 +109,7 @@ def example_of(rule: Rule, number: int, folder: Path) -> Iterator[Callable[..., 
         yield run
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
 def test_odd_values_stop_no_rule(rule: Rule, tmp_path: Path) -> None:
     with example_of(rule, 0, tmp_path) as run:

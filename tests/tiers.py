@@ -1,7 +1,8 @@
-"""Which tier a test belongs to: what it needs decides, not how long it takes.
+"""Which tier a test belongs to: what it needs decides, programs or time.
 
-The first tier needs Python and what `make dev` installs. What needs more carries a mark, by the
-fixtures that it uses and by the place where it stands; a few stand in the tests themselves.
+The first tier needs Python and what `make dev` installs, and no case of it takes seconds. What
+needs a program carries a mark by the fixtures that it uses and by the place where it stands; what
+is slow has its mark in the test itself.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ MARKS: Mapping[str, str] = {
     "oracle": "needs other programs that read robots: libsdformat, drake",
     "corpus": "needs real packages",
     "root": "needs to mount a disk or to become another user",
-    "whole": "needs minutes: runs the command, or parts of it, as a whole many times",
+    "slow": "needs seconds for each case: whole checks, trials, hostile or very large input",
 }
 BY_FIXTURE: Mapping[str, str] = {
     "chromium": "browser",
@@ -39,10 +40,10 @@ BY_FIXTURE: Mapping[str, str] = {
 }
 BY_PLACE: Mapping[str, str] = {
     "oracle": "oracle",
-    "editor/test_random_edits.py": "whole",
-    "portable": "whole",
-    "test_places.py": "whole",
-    "test_products.py": "whole",
+    "editor/test_random_edits.py": "slow",
+    "portable": "slow",
+    "test_places.py": "slow",
+    "test_products.py": "slow",
     "editor/test_vscode_client.py": "install",
     "deployment/test_image.py": "install",
     "deployment/test_postgres.py": "service",

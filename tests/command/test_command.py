@@ -78,6 +78,7 @@ def test_exit_3_when_a_rule_crashes(run_apart: Run, good: Path, with_crash: dict
     assert f"{GOOD}: Incomplete: no error, but 1 rule for errors could not run" in done.stdout
 
 
+@pytest.mark.slow
 def test_unreadable_input_counts_more_than_a_crash_and_that_more_than_findings(
     run_apart: Run, good: Path, broken: Path, with_crash: dict[str, str]
 ) -> None:
@@ -137,6 +138,7 @@ def test_two_files_and_two_archives_side_by_side_are_all_reported(
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("where", ["folder", "paths"])
 def test_two_processes_report_what_one_does(
     where: str, run_apart: Run, good: Path, broken: Path, tmp_path: Path

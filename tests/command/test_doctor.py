@@ -114,6 +114,7 @@ def test_a_sandbox_that_nothing_keeps_is_a_problem(monkeypatch: pytest.MonkeyPat
     assert [each.state for each in sandbox()] == [State.PROBLEM]
 
 
+@pytest.mark.slow
 def test_a_missing_library_is_a_problem(run_apart: Run, tmp_path: Path) -> None:
     """A folder that comes first on the path and has a library that cannot be imported."""
     (tmp_path / "lxml").mkdir()
@@ -137,6 +138,7 @@ def test_a_library_that_ends_the_process_is_a_problem(run_apart: Run, tmp_path: 
     assert said in done.stdout
 
 
+@pytest.mark.slow
 def test_a_part_of_a_library_that_is_missing_is_to_be_installed_again(
     run_apart: Run, tmp_path: Path
 ) -> None:
@@ -171,6 +173,7 @@ def test_without_an_installation_the_versions_are_unknown(monkeypatch: pytest.Mo
     assert list(installation.installation())[-1].state is State.NOTE
 
 
+@pytest.mark.slow
 def test_a_robot_with_faults_fails_the_self_test(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

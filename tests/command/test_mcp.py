@@ -71,6 +71,7 @@ def _found(checked: dict[str, Any]) -> set[tuple[str, str]]:
     return {(it["rule"], it["message"]) for each in checked["packages"] for it in each["findings"]}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("unsafe", [False, True])
 def test_check_explain_fix_and_check_again(workspace: Path, unsafe: bool) -> None:
     async def work(call: Call) -> None:

@@ -49,12 +49,14 @@ def test_infos_are_counted_and_shown_on_request(run: Run, broken: Path) -> None:
     assert " info " not in brief.stdout.replace("infos, show", "")
 
 
+@pytest.mark.slow
 def test_the_order_does_not_depend_on_the_number_of_processes(run: Run, samples: Path) -> None:
     one, two = (run(samples, "--no-trial", "--jobs", jobs) for jobs in (1, 2))
     assert one.stdout == two.stdout
     assert one.returncode == two.returncode == 1
 
 
+@pytest.mark.slow
 def test_each_package_is_printed_when_it_ends(samples: Path) -> None:
     # The first is printed while the last still has to be checked.
     command = [sys.executable, "-m", "checker.cli", "robots", "--no-trial", "--no-cache"]
@@ -68,6 +70,7 @@ def test_each_package_is_printed_when_it_ends(samples: Path) -> None:
     assert [name for name in ALL[1:] if f"{name}: " not in rest] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_a_terminal_shows_how_far_it_is(samples: Path, jobs: str) -> None:
     ours, theirs = pty.openpty()

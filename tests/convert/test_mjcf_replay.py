@@ -94,6 +94,7 @@ def assert_same(package: Path, folder: Path) -> Exported:
     return made
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [

@@ -146,6 +146,7 @@ def assert_good(made: Made, capsys: pytest.CaptureFixture[str]) -> None:
     assert_no_finding(made, capsys)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAMPLES)
 def test_samples(
     samples: Path, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -125,6 +125,7 @@ def assert_survives(path: Path) -> None:
     assert (reading.error, reading.differences) == ("", ())
 
 
+@pytest.mark.slow
 def test_samples(samples: Path) -> None:
     for path in models(samples):
         if not path.parent.name.startswith("broken"):

@@ -27,6 +27,7 @@ def report_of(folder: Path, **wanted: bool) -> PackageReport:
     return package
 
 
+@pytest.mark.slow
 def test_only_who_asks_gets_the_robot_in_3d() -> None:
     folder = SAMPLES / "my_gurdy_description"
     assert report_of(folder, trial=False).display is None
@@ -37,12 +38,14 @@ def test_only_who_asks_gets_the_robot_in_3d() -> None:
     assert [each["name"] for each in glb.said["animations"]] == ["trial"]
 
 
+@pytest.mark.slow
 def test_without_a_trial_nothing_moves() -> None:
     shown = report_of(SAMPLES / "my_gurdy_description", display=True, trial=False)
     assert shown.display is not None
     assert "animations" not in read_glb(shown.display.glb).said
 
 
+@pytest.mark.slow
 def test_a_fault_of_ours_is_no_fault_of_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object) -> None:
         raise RuntimeError("no paint")

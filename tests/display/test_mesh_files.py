@@ -24,6 +24,7 @@ def surfaces(found: Appearance) -> tuple[Surface, ...]:
     return found
 
 
+@pytest.mark.slow
 def test_surfaces_lie_where_the_meshes_do(samples: Path) -> None:
     """Units, nodes and axes are those that rules, views and the trial have."""
     seen = 0
@@ -183,6 +184,7 @@ def _giant_png() -> bytes:
     return b"\x89PNG\r\n\x1a\n" + body
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "files"),
     [
@@ -205,6 +207,7 @@ def test_without_its_picture_a_mesh_is_plain(
     assert len(found.faces) == 12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "data", "said"),
     [
@@ -227,6 +230,7 @@ def test_what_cannot_be_read_is_a_reason(name: str, data: bytes, said: str, tmp_
     assert len(surfaces(found["meshes/good.stl"])[0].faces) == 12
 
 
+@pytest.mark.slow
 def test_a_robot_has_no_more_triangles_than_its_budget(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -267,6 +271,7 @@ def test_what_was_looked_at_is_not_read_again(
     assert not np.array_equal(first.vertex_colours, painted.vertex_colours)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("broken", [False, True])
 def test_files_may_share_a_picture(tmp_path: Path, *, broken: bool) -> None:
     """It is read once for both, and looks as it does on one alone."""

@@ -53,6 +53,7 @@ def trial_of(robot: Robot, cache: Path) -> Trial:
     return trial
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_every_sample_is_shown_as_large_as_it_is(name: str, kept: Path) -> None:
     with robot_of(SAMPLES / name, kept) as robot:

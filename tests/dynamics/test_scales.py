@@ -78,6 +78,7 @@ def test_other_numbers_are_another_entry(tmp_path: Path) -> None:
     assert two.centre == pytest.approx((1.0 / 3.0, 0.0, 0.0))
 
 
+@pytest.mark.slow
 def test_a_known_robot_is_checked_without_pinocchio_and_numpy(tmp_path: Path) -> None:
     cache = Cache(tmp_path)
     check = (

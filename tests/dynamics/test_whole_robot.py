@@ -190,6 +190,7 @@ def test_a_robot_that_hangs_on_the_world_is_not_free() -> None:
     assert [(each.part, each.free) for each in built.degrees] == [("j", False)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["chain", "star", "loose"])
 def test_thousands_of_links(shape: str) -> None:
     content = []

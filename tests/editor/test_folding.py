@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -96,6 +97,7 @@ def test_a_well_formed_text_folds_as_its_elements_lie(samples: Path) -> None:
         assert found == expected, path
 
 
+@pytest.mark.slow
 def test_folding_is_linear() -> None:
     with limited(3):
         for text in ("<a>\n" * 100_000, "<a " * 200_000, '<a "' * 100_000, "<!--" * 100_000):

@@ -221,6 +221,7 @@ _NUMBER = re.compile(r"(?<=[> ])-?\d+(?:\.\d+)?(?=[< ])")
 _ODD = ("nan", "inf", "-inf", "1e999", "", "-0", "1e308", "abc", "0", "1e-320")
 
 
+@pytest.mark.slow
 @given(seed=strategies.integers(0, 10_000))
 def test_odd_numbers_make_no_hover_fail(samples: Path, seed: int) -> None:
     dice = random.Random(seed)  # noqa: S311 - what to change

@@ -204,6 +204,7 @@ async def test_lenses_tell_mass_and_verdict(editor: Editor, model: Path) -> None
     await editor.close(model)
 
 
+@pytest.mark.slow
 async def test_a_drive_tells_what_came_of_it(editor: Editor, folder: Path) -> None:
     robot = folder / SCOUT / "urdf" / "scout.urdf.xacro"
     found = await editor.open(robot)
@@ -217,6 +218,7 @@ async def test_a_drive_tells_what_came_of_it(editor: Editor, folder: Path) -> No
     await editor.close(robot)
 
 
+@pytest.mark.slow
 async def test_weights_are_told_by_command_and_stay(editor: Editor, model: Path) -> None:
     found = await editor.open(model)
     assert not any(each.code == "INE003" for each in found)
@@ -232,6 +234,7 @@ async def test_weights_are_told_by_command_and_stay(editor: Editor, model: Path)
     await editor.close(model)
 
 
+@pytest.mark.slow
 async def test_the_robot_is_shown_in_3d(editor: Editor, folder: Path) -> None:
     robot = folder / SCOUT / "urdf" / "scout.urdf.xacro"
     await editor.open(robot)
@@ -284,6 +287,7 @@ async def test_a_check_with_trial_is_cancelled(editor: Editor, folder: Path) -> 
     await editor.close(robot)
 
 
+@pytest.mark.slow
 async def test_each_save_weighs_where_the_user_wants_it(editor: Editor, model: Path) -> None:
     measured = {rule.id for rule in rules_that_measure()}
     editor.configure({"subt-check": {"trial": "save"}})

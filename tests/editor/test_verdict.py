@@ -26,6 +26,7 @@ async def client(client: Client, folder: Path) -> AsyncIterator[None]:
     await client.shutdown_session()
 
 
+@pytest.mark.slow
 async def test_it_is_that_of_a_check(editor: Editor, folder: Path) -> None:
     model = folder / SCOUT / "urdf/scout.urdf.xacro"
     await editor.open(model)
@@ -62,6 +63,7 @@ async def test_each_file_has_that_of_its_package(editor: Editor, folder: Path) -
         await editor.close(path)
 
 
+@pytest.mark.slow
 async def test_a_check_with_weights_counts(editor: Editor, folder: Path) -> None:
     model = folder / ROVER / "model.sdf"
     await editor.open(model)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from hypothesis import given, strategies
 
 from checker.editor.xml_context import Context, Where, tags_behind, xml_context
@@ -61,6 +62,7 @@ def test_a_document_is_read_as_the_parser_reads_it(text: str) -> None:
     _agrees(parse_xml(SourceText("model.sdf", text)))
 
 
+@pytest.mark.slow
 def test_samples_are_read_as_the_parser_reads_them(samples: Path) -> None:
     path = samples / "husky_migration_sensor_config_1" / "model.sdf"
     _agrees(parse_xml(SourceText(path.name, path.read_text())), step=7)
@@ -159,6 +161,7 @@ def test_elements_in_front_and_behind_are_known() -> None:
     assert list(tags_behind(text, offset)) == ["joint", "frame"]
 
 
+@pytest.mark.slow
 @of_each("unit", ["<a ", "<a b='", "<!--", "</a", "<a><", "<a>", '<a "', "</x>"])
 def test_hostile_texts_take_linear_time(unit: str) -> None:
     text = unit * (300_000 // len(unit))

@@ -120,6 +120,7 @@ def test_files_share_what_there_is_for_one_package(tmp_path: Path) -> None:
         assert "for all" in found.too_large[0].reason
 
 
+@pytest.mark.slow
 def test_a_xacro_file_of_too_many_elements_is_not_checked(tmp_path: Path) -> None:
     """Forty macros, each of which calls the one before twice: a bound of ours, no error of it.
 

@@ -88,6 +88,7 @@ def test_a_covered_finding_is_a_repeat_of_the_one_that_is_told() -> None:
     assert [each.message for each in found.repeats] == ["TST001 says so", "TST002 says so"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sample", sorted(SAMPLES.glob("*/")), ids=lambda path: path.name)
 def test_samples(sample: Path) -> None:
     assert not differences_below(sample, trial=True)

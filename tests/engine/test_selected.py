@@ -37,6 +37,7 @@ def told(outcome: Outcome) -> tuple[set[Said], set[tuple[str, str]]]:
     return shown, {(each.rule, each.message) for each in repeats}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sample", BROKEN, ids=lambda path: path.name)
 def test_the_whole_check_shows_what_each_rule_shows_alone(sample: Path) -> None:
     with open_input(sample) as opened:

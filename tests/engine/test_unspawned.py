@@ -23,6 +23,7 @@ _CHOSEN = "PathJoinSubstitution([share, 'models', LaunchConfiguration('robot'), 
 _WORLD = '<sdf version="1.9"><world name="hall"><include><uri>model://trike</uri></include></world></sdf>'
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "first", "more", "severity"),
     [

@@ -12,6 +12,7 @@ from tests.evaluated.reading_files import ATTACKS, PICTURES
 TEMPLATES = ("{{ 7 * 7 }}", "{% include '/etc/passwd' %}", "{{ ''.__class__.__mro__ }}", "${7*7}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ATTACKS)
 def test_it_is_read_soon_and_what_is_too_much_is_said(bounded: Measure, name: str) -> None:
     said = bounded("reading_files", name)

@@ -23,6 +23,7 @@ REFUSED = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SPAWNERS)
 def test_it_ends_soon_and_with_a_reason(bounded: Measure, name: str) -> None:
     assert bounded("reading_spawners", name).startswith(REFUSED)

@@ -72,6 +72,7 @@ def test_safe_faults_of_the_broken_rover_are_gone(tmp_path: Path, fix: Fix) -> N
     assert not fixed.left
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("safeties", [(Safety.SAFE,), EVERY], ids=["safe", "unsafe"])
 def test_the_second_time_nothing_changes(
     tmp_path: Path, fix: Fix, safeties: tuple[Safety, ...]
@@ -83,6 +84,7 @@ def test_the_second_time_nothing_changes(
     assert contents(package) == once
 
 
+@pytest.mark.slow
 def test_no_fix_brings_a_new_finding(tmp_path: Path, fix: Fix) -> None:
     package = copied(BROKEN, tmp_path)
     before = Counter(each.rule for each in findings(package) for _ in each.places)

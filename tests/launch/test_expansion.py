@@ -226,6 +226,7 @@ def test_an_endless_chain_of_includes_ends_at_the_greatest_depth(expand):
     assert len(graph.includes) == MAX_DEPTH + 1
 
 
+@pytest.mark.slow
 def test_includes_that_double_at_each_level_end_at_the_count_of_steps(expand):
     twice = '<include file="$(dirname)/{0}.launch"><arg name="n" value="{1}$(arg n)"/></include>'
     files = {

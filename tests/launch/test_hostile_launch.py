@@ -58,6 +58,7 @@ def test_a_file_that_includes_itself_with_a_growing_arg_is_not_followed_for_ever
     assert "not read completely" in reasons(report, "ROS010")
 
 
+@pytest.mark.slow
 def test_a_long_chain_of_includes_is_followed_to_a_limit(tmp_path):
     files = {
         f"launch/l{n}.launch": f'<launch><include file="$(dirname)/l{n + 1}.launch"/></launch>\n'
@@ -68,6 +69,7 @@ def test_a_long_chain_of_includes_is_followed_to_a_limit(tmp_path):
     assert f"more than {MAX_DEPTH} levels" in reasons(package, "ROS010")
 
 
+@pytest.mark.slow
 def test_a_file_that_includes_another_many_times_over_ends(tmp_path, monkeypatch):
     files = {
         f"launch/l{n}.launch": "<launch>"
@@ -89,6 +91,7 @@ def test_a_file_that_includes_another_many_times_over_ends(tmp_path, monkeypatch
     assert 0 < followed["include"] <= 3 * MAX_STEPS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     [

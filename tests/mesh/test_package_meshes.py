@@ -137,6 +137,7 @@ def test_faults_of_one_file_leave_the_others(tmp_path: Path) -> None:
     assert (bad.trouble, odd.trouble) == (MeshTrouble.UNREADABLE, MeshTrouble.UNSUPPORTED)
 
 
+@pytest.mark.slow
 def test_a_file_that_brings_its_reader_down_takes_no_other_with_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -39,6 +39,7 @@ def report(made: Migrated) -> PackageReport:
     return package
 
 
+@pytest.mark.slow
 def test_it_has_the_tree_of_the_guide(made: Migrated) -> None:
     files = {
         path.relative_to(made.folder).as_posix()
@@ -180,6 +181,7 @@ def test_every_plugin_that_the_guide_names_is_decided_about(made: Migrated) -> N
     assert "urdf/sensors.xacro:" in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sample", ["my_gurdy_description", "ouster_description"])
 def test_robots_without_wheels_come_out_too(sample: str, tmp_path: Path) -> None:
     made = migrate(SAMPLES / sample, tmp_path / "made", MigrationOptions(organization="acme"))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+import pytest
+
 from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.report.report import Cause, Report, VerdictKind
@@ -125,6 +127,7 @@ def test_includes_that_nest_deeply_are_no_crash(tmp_path: Path) -> None:
     assert package.verdict is VerdictKind.INCOMPLETE
 
 
+@pytest.mark.slow
 def test_models_beyond_the_limit_are_named(tmp_path: Path) -> None:
     model = "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>"
     files = {f"m{number}.xml": model for number in range(42)}

@@ -114,6 +114,7 @@ def test_groups_and_loops_agree_with_a_search(pairs: list[tuple[int, int]]) -> N
     assert set().union(*loops(robot)) == circling
 
 
+@pytest.mark.slow
 def test_a_long_loop_takes_no_more_than_seconds() -> None:
     count = large(20_000)
     with limited(20):

@@ -124,6 +124,7 @@ def assert_agreed(paths: list[Path]) -> None:
     assert [(it.error, it.differences) for it in readings] == [("", ())] * len(paths)
 
 
+@pytest.mark.slow
 def test_yourdfpy_agrees_on_the_samples(samples: Path) -> None:
     sound = [path for path in samples.rglob("*.urdf") if "broken" not in str(path)]
     assert len(sound) > 1

@@ -102,6 +102,7 @@ def test_bounds(number: float, low: float, high: float) -> None:
     assert not values_out_of_bounds(located(repr(number)), (-math.inf, math.inf))
 
 
+@pytest.mark.slow
 def test_a_long_value_of_nonsense_is_reported_in_brief() -> None:
     assert len(faults("x " * 100_000, "pose")) <= 4
 

@@ -109,6 +109,7 @@ def test_names_that_clash(pack: Pack, tmp_path: Path, names: list[str], reason: 
     assert reason in refusal(pack([(name, MODEL) for name in names]), tmp_path)
 
 
+@pytest.mark.slow
 def test_ten_thousand_files(pack: Pack, tmp_path: Path) -> None:
     archive = pack([(f"rover/{number}.txt", b"") for number in range(10_000)])
     assert "rover/5000.txt' exceeds the limit of 5000 entries" in refusal(archive, tmp_path)
@@ -286,6 +287,7 @@ def test_tar_formats_with_long_names(tmp_path: Path, form: int) -> None:
         assert opened.packages[0].read_bytes(name.removeprefix("rover/")) == b"mesh"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "kind"), [("x", b"x"), ("x", b"g"), ("./", tarfile.DIRTYPE)])
 def test_tar_of_endless_headers(tmp_path: Path, name: str, kind: bytes) -> None:
     """None of them is an entry of the package, so that no limit of these ends them."""

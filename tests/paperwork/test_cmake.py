@@ -155,6 +155,7 @@ def test_what_stands_inside_if_is_conditional_and_its_variables_are_not_known():
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
     [

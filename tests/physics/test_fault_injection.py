@@ -27,6 +27,7 @@ def title(row: Fault | str) -> str:
     return row.name if isinstance(row, Fault) else row.removesuffix("_sensor_config_1")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("sample", "fault"), sampled(TABLE), ids=title)
 def test_a_physical_fault_is_found(sample: str, fault: Fault, tmp_path: Path) -> None:
     (report,) = check_package(put_into(sample, fault, tmp_path), Settings()).packages

@@ -64,6 +64,7 @@ def report_of(sample: str, edits: tuple[Swap, ...], folder: Path) -> PackageRepo
     return report
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("sample", "rule", "edits"), FAULTS)
 def test_one_fault_is_one_finding(
     sample: str, rule: str, edits: tuple[Swap, ...], tmp_path: Path

@@ -31,6 +31,7 @@ def test_the_command_offers_every_format() -> None:
     assert tuple(FORMATS) == arguments.FORMAT_NAMES
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", FORMATS)
 def test_every_format_tells_of_every_sample(form: str, of_samples: Report) -> None:
     written = FORMATS[form](of_samples, MANNER)

@@ -97,6 +97,7 @@ def test_a_trial_read_back_is_told_the_same(of_a_trial: Report) -> None:
     assert FORMATS["text"](again, MANNER) == FORMATS["text"](of_a_trial, MANNER)
 
 
+@pytest.mark.slow
 def test_ten_thousand_findings_are_read() -> None:
     written = to_json(many(10_000))
     assert len(written) < json_report.SIZE_LIMIT

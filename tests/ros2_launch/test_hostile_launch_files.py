@@ -72,6 +72,7 @@ def test_what_reaches_outside_is_not_known(read: Read, statements: str) -> None:
     assert "root" not in word.value
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
     [

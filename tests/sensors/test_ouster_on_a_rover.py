@@ -228,6 +228,7 @@ def reported(package: PackageReport) -> list[tuple[str, str, int]]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("rule", "right", "wrong"), FAULTS.values(), ids=FAULTS)
 def test_a_wrong_figure_is_found_at_its_line(
     rover: Rover, tmp_path: Path, rule: str, right: str, wrong: str

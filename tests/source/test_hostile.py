@@ -38,6 +38,7 @@ def read(text: str) -> None:
             assert element.text.span.end > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", GROWING)
 def test_four_times_the_text_costs_no_square(name: str) -> None:
     text, size = GROWING[name]

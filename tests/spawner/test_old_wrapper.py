@@ -84,6 +84,7 @@ def differences(package: Path) -> tuple[set[tuple[object, ...]], set[tuple[objec
     return today - before, before - today
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_in_the_wrapper_is_found_as_in_spawn(fault: str, tmp_path: Path) -> None:
     package = shutil.copytree(SAMPLES / BUGGY, tmp_path / BUGGY)

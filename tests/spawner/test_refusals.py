@@ -164,6 +164,7 @@ def test_refused_with_its_reason(emit, code, monkeypatch):
     assert result.span.source.file == "robot/launch/spawner.rb"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "code",
     [

@@ -97,6 +97,7 @@ def test_any_text_is_read_and_places_lie_in_it(text: str):
         assert 0 <= found.span.start <= found.span.end <= len(text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
     [

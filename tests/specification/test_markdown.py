@@ -88,6 +88,7 @@ def test_no_text_makes_the_reader_raise_and_every_passage_fits_its_span(text):
         assert 0 <= passage.span.start <= passage.span.end <= len(text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "piece", ["<!--", "~~ ", "* ", "> ", "[", "](", "<a ", "# a\n", "`", "- a\n", "&mdash;"]
 )

@@ -242,6 +242,7 @@ def test_no_text_makes_a_sheet_raise(text):
     assert sheet.total_mass in (None, *sheet.masses)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "piece",
     ["1 kg ", "weighs 1 kg ", "1 m/s to ", "max 1 m/s ", "1 hour and ", "limited to 1 hour ",

@@ -76,6 +76,7 @@ def test_a_steering_axis_that_points_down_steers_the_other_way() -> None:
     assert value(trial_of(car(axis="0 0 -1")), "yaw_ratio") < -0.2
 
 
+@pytest.mark.slow
 def test_a_wrong_wheel_base_makes_another_circle() -> None:
     assert value(sound(car(base=0.5 * BASE)), "yaw_ratio") < 0.75
     assert value(sound(car(base=1.5 * BASE)), "yaw_ratio") > 1.2

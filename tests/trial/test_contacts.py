@@ -112,6 +112,7 @@ def test_the_ground_counts_where_the_robot_is_put_into_it() -> None:
     assert query.depths(sunk) == {("a", "ground"): pytest.approx(0.05)}
 
 
+@pytest.mark.slow
 def test_many_parts_are_looked_at_within_bounds() -> None:
     links = "".join(link(f"l{i}", CUBE, f"{i * 0.9} 0 0 0 0 0") for i in range(300))
     ties = "".join(joint(f"l{i}", parent="l0") for i in range(1, 300))

@@ -155,6 +155,7 @@ CASES = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_it_drives_and_turns_as_commanded(tmp_path: Path, name: str) -> None:
     *case, drive = CASES[name]
@@ -165,6 +166,7 @@ def test_it_drives_and_turns_as_commanded(tmp_path: Path, name: str) -> None:
     assert abs(value(trial, "path_sideways")) < 0.02
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["mecanum", "omni"])
 def test_wheels_on_rollers_turn_with_the_stated_arm(tmp_path: Path, name: str) -> None:
     links, kind, parameters, _ = CASES[name]

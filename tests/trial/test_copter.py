@@ -87,6 +87,7 @@ def test_a_controller_that_believes_in_more_thrust_than_there_is_sinks() -> None
     assert value(trial, "hover_sink") > 0.3
 
 
+@pytest.mark.slow
 def test_a_centre_of_mass_to_the_side_asks_more_of_one_side() -> None:
     level, aside = sound(copter()), sound(copter(com="0.05 0 0"))
     # The arm of the rotors along x is 0.25 · cos 45°.

@@ -81,6 +81,7 @@ def test_one_finding_about_two_figures_counts_for_both_and_no_more() -> None:
     assert [each["verdict"] for each in said.values()] == ["error", "error", "ok"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "good", "bad"),
     [

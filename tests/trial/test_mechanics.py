@@ -24,6 +24,7 @@ def test_half_the_separation_in_the_plugin_halves_the_turn() -> None:
     assert ratio == pytest.approx(0.5, rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_longer_wheel_base_turns_less() -> None:
     short, long = (sound(four_wheels(base=base)) for base in (0.3, 0.6))
     assert value(long, "yaw_ratio") < 0.8 * value(short, "yaw_ratio")

@@ -39,6 +39,7 @@ LOOP = "".join(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "robot",
     [
@@ -59,6 +60,7 @@ def test_a_hostile_robot_ends_as_a_trial_or_a_reason(robot: Robot) -> None:
     assert isinstance(trial_in_child(robot), Trial | WorkerFailed | str)
 
 
+@pytest.mark.slow
 def test_thousands_of_links_end_within_the_limits() -> None:
     assert isinstance(trial_in_child(chain(large(5000))), Trial | WorkerFailed | str)
 

@@ -75,6 +75,7 @@ def test_a_zero_moment_beside_links_that_have_some_is_no_fault() -> None:
     assert compiled(scene)[0].body_subtreemass[0] == 2
 
 
+@pytest.mark.slow
 @given(st.tuples(*[st.floats(-3.14, 3.14)] * 3), st.floats(1e-6, 1e6))
 @settings(max_examples=examples(50))
 def test_rods_are_taken_however_they_are_turned(
@@ -207,6 +208,7 @@ def test_a_link_posed_in_an_unknown_frame() -> None:
 WORDS = ("nan", "inf", "-inf", "1e300", "-1e300", "1e-300", "0", "-1", "", "x")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("word", WORDS)
 def test_a_number_may_be_anything_anywhere(word: str) -> None:
     """Whatever one number says, there is a scene and MuJoCo takes it, or a reason why not."""
@@ -238,6 +240,7 @@ def chain(count: int) -> str:
     return links + ties
 
 
+@pytest.mark.slow
 def test_thousands_of_links_in_one_chain() -> None:
     """Our code gets through; MuJoCo's parser says that this is too deep, and does not crash."""
     count = large(5000)
@@ -247,6 +250,7 @@ def test_thousands_of_links_in_one_chain() -> None:
         mujoco.MjModel.from_xml_string(scene.mjcf)
 
 
+@pytest.mark.slow
 def test_thousands_of_links_side_by_side() -> None:
     count = large(5000)
     links = "".join(link(f"l{i}") for i in range(count))

@@ -28,6 +28,7 @@ def loads(content: str) -> tuple[dict[str, float], list[str], float]:
     return shares, found, -heights[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("stiffness", "damping", "reference"),
     [
@@ -47,6 +48,7 @@ def test_springs_share_the_load_and_give_way_as_statics_say(
     assert sink == pytest.approx(reference + WEIGHT / 6 / stiffness, abs=5e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "content",
     [

@@ -56,6 +56,7 @@ def test_full_speed_keeps_the_limits_of_the_plugin() -> None:
     assert value(trial, "full_acceleration") < 1.05 * value(trial, "full_acceleration_limit")
 
 
+@pytest.mark.slow
 def test_the_turn_is_what_the_contact_loads_predict() -> None:
     for base in (0.2, 0.4, 0.6):
         trial = sound(four_wheels(base=base))
@@ -130,6 +131,7 @@ def test_two_wheels_and_a_ball_turn_as_told() -> None:
     assert 0.9 < value(trial, "yaw_of_predicted") < 1.1
 
 
+@pytest.mark.slow
 def test_the_drag_of_a_ball_is_its_load_times_its_friction() -> None:
     (drag,) = trial_of(on_a_ball(0.0)).all("drag")
     assert drag.value < 1e-5
@@ -179,6 +181,7 @@ def test_two_halves_with_a_free_joint_between_drive_together() -> None:
     assert abs(value(trial, "path_sideways")) < 0.02
 
 
+@pytest.mark.slow
 def test_wheels_with_a_friction_direction_slide_sideways_in_a_turn() -> None:
     surface = "<surface><friction><ode><mu>0.5</mu><mu2>1</mu2>{}</ode></friction></surface>"
 
@@ -194,6 +197,7 @@ def test_wheels_with_a_friction_direction_slide_sideways_in_a_turn() -> None:
     assert turned("") < 0.65
 
 
+@pytest.mark.slow
 def test_a_wheel_with_a_friction_direction_may_lie_flat() -> None:
     surface = "<surface><friction><ode><mu>0.5</mu><mu2>1</mu2><fdir1>0 0 1</fdir1></ode>"
     shape = "</sphere></geometry>"

@@ -43,6 +43,7 @@ def fault(describe: Describe, body: str, **more: str) -> XacroFault:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "kind", "said"),
     [

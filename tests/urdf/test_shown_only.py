@@ -90,6 +90,7 @@ _TOP_HEAVY = """<link name="body">
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("launch", "severity"),
     [

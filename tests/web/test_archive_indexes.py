@@ -140,6 +140,7 @@ def serve(wire):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "said", [b"", b"\n", b"nonsense\n", b"[" * 5_000 + b"\n", b"x" * 20_000, b"\xff\n"]
 )

@@ -89,12 +89,14 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     jobs.checks.engine.dispose()
 
 
+@pytest.mark.slow
 @DESCRIPTION.parametrize()
 @FEW
 def test_any_request_is_answered_as_described(case: schemathesis.Case, site: Site) -> None:
     case.call_and_validate(app=site.app, headers=HOST, excluded_checks=WITHOUT)
 
 
+@pytest.mark.slow
 @DESCRIPTION.include(path_regex="{id}").parametrize()
 @FEW
 def test_any_request_about_a_check_is_answered_as_described(

@@ -91,6 +91,7 @@ def test_an_upload_is_kept_and_its_check_ordered(
 MANY = [(f"rover/{number}", b"") for number in range(5_001)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [

@@ -30,6 +30,7 @@ def outcomes(said: Any, group: int) -> dict[str, str]:
     return {expression: f"{kind}: {words}" for expression, (kind, words, _) in named}
 
 
+@pytest.mark.slow
 def test_what_is_outside_of_the_language_is_refused(said: Any) -> None:
     others = {
         expression: outcome

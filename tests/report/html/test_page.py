@@ -100,6 +100,7 @@ def test_nothing_is_asked_for_outside() -> None:
     assert "unsafe-eval" not in policy
 
 
+@pytest.mark.slow
 def test_ten_thousand_findings_are_capped_and_counted() -> None:
     report = package("rover", findings=10_000)
     said = rendered(report)
