@@ -13,10 +13,12 @@ from collections.abc import Iterable
 
 from checker.base.words import Suggestions
 from checker.finding import Fix
-from checker.ros.control.controllers import ControlSystem
+from checker.formats.xacro.expanded import written_element
+from checker.ros.control.controllers import ControlPlugin, ControlSystem
 from checker.ros.control.nodes import SpawnedModel
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule, unchecked
 from checker.source.text import Span
+from checker.source.xml_insertion import append_to
 
 FORMATS = ("-urdf", "-sdf")
 SOURCES = ("-param", "-file", "-database", "-stdin")
@@ -122,7 +124,16 @@ def _elsewhere(control: ControlSystem, model: SpawnedModel) -> Findings:
             "gazebo_ros_control runs there, but the controllers are started in "
             f"{', '.join(map(repr, sorted(control.namespaces)))}",
             related=[(silent[0], "states no <robotNamespace>")],
+            fix=_stated(silent[0], control),
         )
+
+
+def _stated(plugin: ControlPlugin, control: ControlSystem) -> Fix | None:
+    """Return the fix that states the only namespace in which controllers are started."""
+    if len(control.namespaces) != 1:
+        return None
+    line = f"<robotNamespace>{min(control.namespaces)}</robotNamespace>"
+    return Fix(Safety.UNSAFE, (append_to(written_element(plugin.plugin.element), [line]),))
 
 
 _SPAWN = "launch/spawn.launch"
