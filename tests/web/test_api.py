@@ -21,6 +21,7 @@ from checker.service.store.store import SUMMARY, Store
 from checker.service.web.answers.headers import file_response
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
+from tests.each import of_each
 from tests.effort import examples
 from tests.web.board import DONE, ID, QUEUED, ROVER, SECRET, BoardJobs, keep_result
 from tests.web.server import eventually, served
@@ -184,8 +185,8 @@ ADDRESSES = (
 )
 
 
-@pytest.mark.parametrize("address", ADDRESSES)
 @pytest.mark.parametrize("id", [ID[:-1] + "m", "x", "%00", "%F0%9F%A4%96", "a" * 5_000])
+@of_each("address", ADDRESSES)
 def test_every_unknown_check_is_answered_alike(client: TestClient, address: str, id: str) -> None:
     answer = client.get(f"/api/checks/{id}{address}")
     assert answer.status_code == 404
