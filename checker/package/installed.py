@@ -189,11 +189,11 @@ def _items(install: Install) -> Iterator[tuple[str, str]]:
 
 def data_file_items(setup: SetupFile, index: FileIndex) -> Iterator[tuple[str, str]]:
     """Yield the same for the `data_files` of a setup.py, which installs files and no folders."""
+    files = [file.path for file in index.files]
     for entry in setup.data_files:
         if not entry.destination.startswith(_SHARE):
             continue
         below = entry.destination.removeprefix(_SHARE).partition("/")[2]
-        files = [file.path for file in index.files]
         matching = (path for pattern in entry.patterns for path in _matching(pattern, files))
         for origin in (*(file.value for file in entry.files), *matching):
             yield posixpath.normpath(posixpath.join(below, posixpath.basename(origin))), origin

@@ -11,6 +11,7 @@ from checker.base.record import Record
 from checker.formats.sdf.includes import ModelIncludes
 from checker.formats.sdf.world import read_worlds
 from checker.launch.ros2.graph import (
+    CLASSIC_PACKAGE,
     GAZEBO,
     Include,
     LaunchGraph,
@@ -31,7 +32,7 @@ _STARTS_WINDOW = "gz_gui.launch"
 _SERVERS = ("gzserver", "ros_gz_sim::GzServer")
 _WORLD_FILE = "world_sdf_file"
 _COMMANDS = (("gz", "sim"), ("ign", "gazebo"))
-CLASSIC_PACKAGE, CLASSIC_COMMANDS = "gazebo_ros", ("gzserver", "gazebo")
+CLASSIC_COMMANDS = ("gzserver", "gazebo")
 _STARTS_CLASSIC = ("gazebo.launch", "gzserver.launch")
 _WORLD_SUFFIXES = (".sdf", ".world")
 _EMPTY = "empty.sdf"

@@ -13,6 +13,7 @@ from checker.formats.xacro.files import local_path
 from checker.launch.ros1.launch_file import Load
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import (
+    CLASSIC_PACKAGE,
     GAZEBO,
     LaunchGraph,
     Node,
@@ -29,7 +30,7 @@ from checker.ros.ros2_control.robot_control import (
     RobotControl,
     may_be_controlled,
 )
-from checker.ros.servers import CLASSIC_PACKAGE, is_gazebo_include
+from checker.ros.servers import is_gazebo_include
 from checker.ros.transforms import STATE_PUBLISHER
 from checker.ros.wiring.facts import program_of
 from checker.source.xml import XmlDocument

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from checker.launch.ros2.graph import Include, LaunchGraph, Process, display_path, share_path
-from checker.ros.servers import CLASSIC_PACKAGE, is_gazebo, is_gazebo_include
+from checker.launch.ros2.graph import (
+    CLASSIC_PACKAGE,
+    Include,
+    LaunchGraph,
+    Process,
+    display_path,
+    share_path,
+)
+from checker.ros.servers import is_gazebo, is_gazebo_include
 from checker.source.text import Located
 
 _QUIET_COMMANDS = (

@@ -31,7 +31,6 @@ from checker.rule import Concern, Context, Finding, Findings, Severity, finding,
 from checker.source.cmake import CMakeFile, Install
 from checker.source.cmake_calls import Call
 from checker.source.text import Located
-from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import with_blanks
 
 _UNQUOTED = re.compile(r"[\w./+-]+")
@@ -60,7 +59,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     stops = _build_of(package, context)
     build = paperwork.build
     if build is None:
-        yield from _without_setup(package)
+        yield from _without_setup(package, paperwork)
         yield from _of_setup(package, stops)
         return
     yield from _unknown_targets(build, stops)
@@ -113,16 +112,14 @@ def _alike(package: Package, install: Install, item: Located[str]) -> list[str]:
     return [name for name in package.index.similar_files(path) if name not in others]
 
 
-def _without_setup(package: Package) -> Iterator[Finding]:
+def _without_setup(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
     """Report a package that setup.py builds, and that has none."""
-    manifest = package.xml("package.xml")
-    if package.build_type != "ament_python" or any(map(package.exists, _PYTHON_BUILD)):
+    build_type = paperwork.manifest.build_type if paperwork.manifest is not None else None
+    if build_type is None or build_type.value != "ament_python":
         return
-    if isinstance(manifest, XmlDocument):
-        export = manifest.root.child("export")
-        build_type = export.child("build_type") if export is not None else None
+    if not any(map(package.exists, _PYTHON_BUILD)):
         yield finding(
-            build_type or manifest.root,
+            build_type,
             "colcon build stops: ament_python builds by setup.py, which does not exist: add it",
         )
 

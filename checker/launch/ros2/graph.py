@@ -29,6 +29,7 @@ def is_known(text: str) -> bool:
 
 
 GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
+CLASSIC_PACKAGE = "gazebo_ros"
 """Packages that start Gazebo, and spawn models in it."""
 
 

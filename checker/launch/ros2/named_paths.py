@@ -10,6 +10,7 @@ from functools import cache
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.launch.ros2.graph import (
+    CLASSIC_PACKAGE,
     GAZEBO,
     Include,
     LaunchGraph,
@@ -26,8 +27,6 @@ from checker.source.text import Located, Span
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
 _SAVES = re.compile(r"(?:\A|[_.])(?:saved?|output|storage|record|write|dump|export)(?:[_.]|\Z)")
 """Names of parameters of what a node writes: `pcd_save.pcd_save_en`, `output_file`."""
-_CLASSIC = "gazebo_ros"
-"""The package whose launch files start Gazebo Classic."""
 _OF_ROS = ("moveit_", "nav2_", "rviz")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
@@ -82,7 +81,7 @@ def _may_start(started: Started) -> bool:
 def _handed_over(include: Include) -> Iterator[NamedPath]:
     """Yield what a launch file is given that is not read; only Gazebo's certainly opens it."""
     target = share_path(include.target.value)
-    opens = target is not None and target.package in (*GAZEBO, _CLASSIC)
+    opens = target is not None and target.package in (*GAZEBO, CLASSIC_PACKAGE)
     needed = opens and include.starts is True
     for value in include.arguments.values():
         for word in value.value.split():
@@ -159,12 +158,10 @@ def without_slash(package: Package, path: SharePath) -> SharePath | None:
     """
     if package.named(path.package) is not None:
         return None
-    others = package.workspace.packages.values()
-    for name in {package.declared_name, *(it.declared_name for it in others)}:
-        rest = path.package.removeprefix(name)
-        holder = package.named(name) if rest != path.package else None
-        if holder is not None and holder.exists(rest):
-            return SharePath(name, f"{rest}/{path.path}" if path.path else rest)
+    for holder in (package, *package.other_packages):
+        rest = path.package.removeprefix(holder.declared_name)
+        if rest != path.package and holder.exists(rest):
+            return SharePath(holder.declared_name, f"{rest}/{path.path}" if path.path else rest)
     return None
 
 
