@@ -149,7 +149,7 @@ class Settings(Record):
             gazebo, sign = model_target(package, whole, in_classic=in_classic)
             if sign:
                 profile = CLASSIC_MODEL if gazebo == CLASSIC else FORTRESS_MODEL
-                return replace(settings, profile=profile, distro="", target_reason=sign)
+                return replace(settings, profile=profile, distro="", gazebo="", target_reason=sign)
         profile = CLASSIC_MODEL if in_classic else gazebo_profile(settings.distro, settings.gazebo)
         return replace(settings, profile=profile)
 

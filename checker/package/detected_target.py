@@ -9,10 +9,18 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.package.distribution_sign import sign_of_paths
+from checker.package.distribution_sign import sign_around, sign_of_paths
 from checker.package.gazebo_sign import release_sign
 from checker.package.mentions import has_word
-from checker.package.simulator_signs import CLASSIC, IGNITION, LATER, ROS_GZ, classic_start
+from checker.package.simulator_signs import (
+    CLASSIC,
+    IGNITION,
+    LATER,
+    ROS_GZ,
+    classic_beside_later,
+    classic_start,
+    gz_sim_start,
+)
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -41,7 +49,8 @@ class DetectedTarget(Record):
 def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     """Read what a package is made for; else what launches it, or it launches, is made for.
 
-    Where neither shows a target, what is beside it may.
+    Where neither shows a target, what is beside it may, then the scripts around it, and last that
+    it starts Gazebo Classic beside a later one.
 
     Args:
         package: A package of ROS 2.
@@ -53,7 +62,7 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     found = _targets_of(launching(package), distro, "which launches it")
     found = found or _targets_of(launched_by(package), distro, "which it launches")
     if not found and not own.distro:
-        return _target_beside(package) or own
+        return _target_beside(package) or _target_around(package) or own
     if len(found) != 1:
         return own
     (target,) = found.values()
@@ -86,6 +95,24 @@ def _target_beside(package: Package) -> DetectedTarget | None:
     ((distro, (sign, name)),) = named.items()
     reason = f"ROS 2 {distro.capitalize()}: {sign.words} in {name}, beside it"
     return DetectedTarget(False, _known_distribution(distro), reason)
+
+
+def _target_around(package: Package) -> DetectedTarget | None:
+    """Return what scripts around a package name, else that it starts Classic beside a later Gazebo.
+
+    Distributions after Humble do not have Classic. Fortress, which Humble comes with, has no
+    command `gz sim`: a package that runs it there is for Harmonic, installed beside.
+    """
+    sign = sign_around(package)
+    words = sign.words if sign is not None else classic_beside_later(package)
+    if not words:
+        return None
+    distro = sign.distro if sign is not None else _OLDEST
+    known = _known_distribution(distro)
+    if distro == _OLDEST and (start := gz_sim_start(package)):
+        reason = f"ROS 2 {distro.capitalize()} and Gazebo Harmonic: {words}, {start}"
+        return DetectedTarget(False, known, reason, "harmonic")
+    return DetectedTarget(False, known, f"ROS 2 {distro.capitalize()}: {words}")
 
 
 def launching(package: Package) -> Iterator[Package]:

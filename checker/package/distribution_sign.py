@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
@@ -29,6 +30,8 @@ _OF_PACKAGES = re.compile(rf"\bros-({_DISTROS})-[a-z*<]")
 """`ros-humble-xacro`, as a command installs it."""
 _INSTALLED = re.compile(rf"/opt/ros/({_DISTROS})\b")
 _WITH_PATHS = re.compile(r"\.(?:urdf|xacro|sdf|world|launch|py|xml|ya?ml|sh)\Z")
+_SCRIPTS = re.compile(r"(?:\A|/)\.vscode/[^/]+\.json\Z|\.(?:ba)?sh\Z")
+"""Settings of an editor and scripts, colcon's `install/setup.bash` among them."""
 _CONTAINER = re.compile(
     r"(?:\A|/)(?:dockerfile[^/]*|[^/]+\.dockerfile|devcontainer\.json"
     r"|(?:docker-)?compose[\w.-]{0,40}\.ya?ml)\Z"
@@ -83,6 +86,19 @@ def sign_of_paths(package: Package) -> DistributionSign | None:
     every = own_files(package, _WITH_PATHS)
     files = (it for it in every if not (is_of_tests(it.file) or _CI.search(it.file.lower())))
     return _only([*_found(files, _INSTALLED)])
+
+
+def sign_around(package: Package) -> DistributionSign | None:
+    """Return the distribution that scripts and editor settings around a package name in paths.
+
+    The nearest folder that names one counts, and only if README, container and CI files around the
+    package name no other.
+    """
+    for scripts in files_above(package, _SCRIPTS):
+        if found := [*_found(scripts, _INSTALLED)]:
+            others = [*own_files(package, NAMES), *chain(*files_above(package, NAMES))]
+            return _only([*found, *_found(others, _NAMED)])
+    return None
 
 
 def _only(signs: Sequence[DistributionSign]) -> DistributionSign | None:

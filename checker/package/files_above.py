@@ -19,7 +19,8 @@ README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
 _LEVELS = 8
 _SIZE_LIMIT = 500_000
 _ITEMS = 5_000
-_PLACES = (".", ".devcontainer", ".docker", ".github/workflows", "docker")
+_PLACES = (".", ".devcontainer", ".docker", ".github/workflows", ".vscode", "docker", "install")
+"""Folders whose files are read; colcon writes `install`."""
 
 
 def own_files(package: Package, names: re.Pattern[str]) -> list[SourceText]:

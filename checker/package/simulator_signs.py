@@ -19,6 +19,7 @@ LATER = "later"
 """Fortress or a later Gazebo."""
 ROS_GZ = "ros_gz"
 """The packages that start either Fortress, on Humble, or a later Gazebo."""
+_GZ_SIM = re.compile(r"""\bgz sim\b|["']gz["'],\s{0,8}["']sim["']""")
 LAUNCH = {
     CLASSIC: re.compile(r"(?<![\w/])(?:gazebo_ros|gzserver|gzclient|spawn_entity\.py)(?!\w)"),
     IGNITION: re.compile(
@@ -61,6 +62,7 @@ class _Kind(NamedTuple):
 
 _STARTING = _Kind(re.compile(r"launch.*\.(?:py|xml|launch|ya?ml)\Z"), LAUNCH)
 _MODELS = _Kind(re.compile(r"\.(?:urdf|xacro|sdf|world|gazebo)\Z"), DESCRIPTION)
+_ROBOTS = _Kind(re.compile(r"\.(?:urdf|xacro)\Z"), DESCRIPTION)
 _DEPENDENCIES = _Kind(re.compile(r"\Apackage\.xml\Z"), _MANIFEST)
 _PYTHON = _Kind(re.compile(r"\.py\Z"), _NODE)
 
@@ -90,6 +92,26 @@ def classic_start(package: Package) -> str:
     spawns = any(has_word(text, _CLASSIC_SPAWN) for text in texts)
     own = any(has_file(text, name) for text in texts for name in names)
     return started[CLASSIC] if spawns and own else ""
+
+
+def classic_beside_later(package: Package) -> str:
+    """Return where launch files start Classic, for robots that are for Classic alone; else empty.
+
+    Other launch files may start a later Gazebo.
+    """
+    started = _first(_signs(package, _STARTING))
+    is_for_classic = CLASSIC in started and [*_first(_signs(package, _ROBOTS))] == [CLASSIC]
+    return started[CLASSIC] if is_for_classic else ""
+
+
+def gz_sim_start(package: Package) -> str:
+    """Return where a launch file runs `gz sim`, a command that Fortress does not have; else empty.
+
+    Nothing does in a package that names Fortress as well.
+    """
+    commands = _Kind(_STARTING.names, {GZ: _GZ_SIM})
+    starts = _first(_signs(package, commands)).get(GZ, "")
+    return "" if IGNITION in package.simulator_signs else starts
 
 
 def _first(named: Iterable[tuple[str, str]]) -> dict[str, str]:

@@ -32,6 +32,7 @@ DEPENDS = (
     "<package><name>acme_arm</name><buildtool_depend>ament_cmake</buildtool_depend>"
     "<exec_depend>gz_ros2_control</exec_depend></package>"
 )
+SETTINGS = '{"python.analysis.extraPaths": ["/opt/ros/humble/lib/python3.10/site-packages"]}'
 MESH = '<mesh filename="file:///opt/ros/{}/share/eye/eye.dae"/>'
 
 
@@ -82,6 +83,16 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
             {"@ros2": True, URDF: MESH.format("humble"), "README.md": "ROS 2 Jazzy"},
             ("ros2", "jazzy"),
         ),
+        ({"@ros2": True, "../.vscode/settings.json": SETTINGS}, ("ros2", "humble")),
+        ({"@ros2": True, "../install/setup.sh": "P=/opt/ros/iron\n"}, ("ros2", "iron")),
+        ({"@ros2": True, "../a.bash": "/opt/ros/iron /opt/ros/humble\n"}, ("ros2", "")),
+        ({"@ros2": SPAWN, "../a.sh": ". /opt/ros/jazzy/setup.sh\n"}, ("ros2-classic", "humble")),
+        (
+            {"@ros2": True, "README.md": "ROS 2 Iron, ROS 2 Jazzy", "../a.sh": "/opt/ros/iron"},
+            ("ros2", ""),
+        ),
+        ({"@ros2": f"{SPAWN}{GZ_SIM}", URDF: CLASSIC_PLUGIN}, ("ros2", "humble")),
+        ({"@ros2": f"{SPAWN}{GZ_SIM}", URDF: "<robot/>"}, ("ros2", "")),
         ({"@ros2": True, "README.md": "ROS 2 Humble or ROS 2 Jazzy\n"}, ("ros2", "")),
         (
             {
@@ -457,6 +468,21 @@ def test_a_package_of_ros_1_states_what_starts_gazebo(
         place.write_text(text)
     settings = Settings().for_package(Workspace((tmp_path,)).at(tmp_path / "lift"))
     assert (settings.profile, settings.target_reason) == ("urdf", expected)
+
+
+@pytest.mark.parametrize(
+    ("distro", "launch", "reason"),
+    [
+        ("humble", "cmd=['gz', 'sim']", "ROS 2 Humble and Gazebo Harmonic: ../a.sh:1 names "),
+        ("humble", "cmd=['ign', 'gazebo']", "ROS 2 Humble: ../a.sh:1 names /opt/ros/humble"),
+        ("jazzy", "cmd=['gz', 'sim']", "ROS 2 Jazzy: ../a.sh:1 names /opt/ros/jazzy"),
+    ],
+)
+def test_a_launch_file_runs_gz_sim_on_humble(
+    distro: str, launch: str, reason: str, tmp_path: Path
+) -> None:
+    files = {"@ros2": f"        ExecuteProcess({launch}),", "../a.sh": f". /opt/ros/{distro}\n"}
+    assert Settings().for_package(opened(tmp_path, files)).target_reason.startswith(reason)
 
 
 @pytest.mark.parametrize(
