@@ -1,10 +1,11 @@
 """A required element or attribute that is missing or empty.
 
 A required part has no default: the parser refuses the file, or builds an incomplete part. A part
-without a name cannot be found. A visual without geometry loads and shows nothing, so that is a
-warning where the profile names no Gazebo release. Gazebo Classic completes all but joints with
-defaults: for it a missing value is a warning. KIN001 reports the ends of joints. No accepted
-package that we checked has this fault.
+without a name cannot be found. What is required depends on the version that the target's release
+reads: the name of a plugin up to SDF 1.9, not from 1.10 on. A visual without geometry loads and
+shows nothing, so that is a warning where the profile names no Gazebo release. Gazebo Classic
+completes all but joints with defaults: for it a missing value is a warning. KIN001 reports the ends
+of joints. No accepted package that we checked has this fault.
 
 Fix: add the element or attribute that the message names.
 Source: SDFormat specification, "Required: 1" at the element or attribute; libsdformat 9,
@@ -14,7 +15,7 @@ Source: SDFormat specification, "Required: 1" at the element or attribute; libsd
 from collections.abc import Iterator
 
 from checker.formats.sdf.document import SdfDocument
-from checker.formats.sdf.schema import ElementType, type_of
+from checker.formats.sdf.schema import ElementType, walk
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
@@ -32,15 +33,14 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     without = Severity.ERROR if context.release else Severity.WARNING
     if sdf.root.tag != "sdf":
         yield finding(sdf.root, f"the root element is <{sdf.root.tag}>, expected <sdf>")
-    for element, kind in sdf.typed_as(context.reads):
-        if kind is None:
-            continue
-        completed = context.release == "classic" and element.tag != "joint"
-        valued = Severity.WARNING if completed else Severity.ERROR
-        findings = [*_attributes(element, kind), *_children(element, kind, without, valued)]
-        # What has no place in the version that the file is read as, the parser only copies.
-        if findings and type_of(element, context.reads) is not None:
-            yield from findings
+    # The parser converts the file to the version that it reads, and copies what has no place there.
+    version = context.reads if context.release else sdf.version
+    for element, kind in walk(sdf.root, version, context.reads):
+        if kind is not None:
+            completed = context.release == "classic" and element.tag != "joint"
+            valued = Severity.WARNING if completed else Severity.ERROR
+            yield from _attributes(element, kind)
+            yield from _children(element, kind, without, valued)
 
 
 def _attributes(element: Element, kind: ElementType) -> Iterator[Finding]:
@@ -87,6 +87,14 @@ def _element_label(element: Element) -> str:
     return f"{element.tag} {name!r}" if name else f"<{element.tag}>"
 
 
+_UNNAMED = """
+<sdf version="1.9">
+  <model name="rover">
+    <link name="base_link"/>
+    <plugin filename="libp.so"/>{}
+  </model>
+</sdf>
+"""
 GOOD = [
     '<visual name="body"><geometry><sphere><radius>1</radius></sphere></geometry></visual>',
     '<sensor name="s" type="camera"><camera/></sensor>',
@@ -101,6 +109,11 @@ GOOD = [
 </joint>
 """,
     },
+    # Harmonic reads it as SDF 1.11.
+    {
+        "@profile": "gazebo-harmonic",
+        "model.sdf": _UNNAMED.format(""),
+    },
 ]
 BAD = [
     '<visual name="body"/>  <!-- ^ SDF005 -->',
@@ -111,6 +124,10 @@ BAD = [
   <gripper_link>base_link</gripper_link>
 </gripper>
 """,
+    {
+        "@profile": "gazebo-fortress",
+        "model.sdf": _UNNAMED.format("  <!-- ^ SDF005 -->"),
+    },
     """
 <visual name="body">
   <geometry>
