@@ -14,7 +14,7 @@ from checker.formats.sdf.includes import ModelIncludes
 from checker.formats.sdf.reader import read_sdf
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.reader import read_urdf
-from checker.formats.xacro.expanded import ExpandedText, written_elements
+from checker.formats.xacro.expanded import ExpandedText
 from checker.model.components import Frame, Joint, Link, Model, Part, Plugin, Sensor
 from checker.model.robot import Robot
 from checker.model.world import World
@@ -47,17 +47,15 @@ class RobotParts(Record, eq=False, dict=True):
     def _by_element(self) -> Mapping[Element, Sequence[RobotPart]]:
         parts: dict[Element, list[RobotPart]] = {}
         for robot in self.robots:
-            written = written_elements(robot.document)
             for part in parts_of(robot):
-                element = written.get(part.element, part.element)
-                parts.setdefault(element, []).append(RobotPart(robot, part))
+                parts.setdefault(part.element.written, []).append(RobotPart(robot, part))
         return parts
 
     def copies_of(self, element: Element) -> Iterator[Element]:
         """Yield what xacro made of an element; nothing for one that xacro did not read."""
         for robot in self.robots:
-            for copy, origin in written_elements(robot.document).items():
-                if origin is element:
+            for copy in robot.document.elements:
+                if copy.written is element and copy is not element:
                     yield copy
 
     def part_named(

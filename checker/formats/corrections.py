@@ -6,13 +6,12 @@ import math
 from collections.abc import Iterable, Sequence
 
 from checker.finding import Edit, Fix, Safety
-from checker.formats.xacro.expanded import written_element
 from checker.model.components import Collision, Visual
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.values import parse_number
 from checker.source.text import Located, Span
-from checker.source.xml_insertion import insert_into, with_attributes
+from checker.source.xml_insertion import attribute_edits, insert_into
 
 _SAME = 1e-9
 """Relative difference of numbers that are the same."""
@@ -83,7 +82,7 @@ def reposed(robot: Robot, part: Collision | Visual, new: Transform) -> Fix | Non
 def pose_edits(robot: Robot, part: Collision | Visual, new: Transform) -> tuple[Edit, ...]:
     """Return the edits of `reposed`; none where there is no such fix."""
     urdf = robot.conventions.is_urdf
-    written = written_element(part.element)
+    written = part.element.written
     element = written.child("origin" if urdf else "pose")
     xyz, rpy = map(_texts, (new.translation, new.rpy))
     if element is None:
@@ -96,7 +95,7 @@ def pose_edits(robot: Robot, part: Collision | Visual, new: Transform) -> tuple[
         return (element.text_span.replacement(f"{xyz} {rpy}"),)
     moved = math.dist(new.translation, part.pose.transform.translation) > _NOISE
     values = {"xyz": xyz, "rpy": rpy} if moved else {"rpy": rpy}
-    return tuple(each.edit for each in with_attributes(element, values))
+    return attribute_edits(element, values)
 
 
 def _texts(numbers: Sequence[float]) -> str:

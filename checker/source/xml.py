@@ -90,6 +90,10 @@ class XmlDocument(Record, eq=False, dict=True):
             return []
         return [self.element_of(node) for node in nodes if isinstance(node, etree._Element)]
 
+    def written(self, element: Element) -> Element:
+        """Return the element of a file that one of this document is a copy of; see `Element`."""
+        return element
+
 
 def elements_limit() -> int:
     """Return how many elements a document may have."""
@@ -167,6 +171,11 @@ class Element(Record, eq=False, dict=True):
     def source(self) -> SourceText:
         """The text that contains this element."""
         return self.document.source
+
+    @property
+    def written(self) -> Element:
+        """The element of a file that a macro made this one of; itself where none did."""
+        return self.document.written(self)
 
     @cached_property
     def path(self) -> str:

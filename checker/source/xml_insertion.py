@@ -1,4 +1,7 @@
-"""Text edits that put elements into XML, laid out like their surroundings, and take them out."""
+"""Text edits that put elements into XML, laid out like their surroundings, and take them out.
+
+Edits are made in the file as it is written, also for an element that a macro made.
+"""
 
 from __future__ import annotations
 
@@ -33,11 +36,11 @@ def insert_into(parent: Element, lines: Sequence[str]) -> Edit:
         parent: The element that is to hold them.
         lines: Their text, two blanks in front of a line for each step of depth.
     """
-    return insertion(parent, lines).edit
+    return insertion(parent.written, lines).edit
 
 
 def insertion(parent: Element, lines: Sequence[str]) -> Insertion:
-    """Return what `insert_into` replaces, and by what."""
+    """Return what `insert_into` replaces, and by what, in the text of the element itself."""
     source, position = parent.source, parent.position
     outer, written = _written(parent, lines)
     if parent.span.text.endswith("/>"):
@@ -52,12 +55,14 @@ def insertion(parent: Element, lines: Sequence[str]) -> Insertion:
 
 def append_to(parent: Element, lines: Sequence[str]) -> Edit:
     """Return the edit that adds elements after the children of an element; see `insert_into`."""
-    last = parent.children[-1] if parent.children else None
+    children = parent.written.children
+    last = children[-1] if children else None
     return insert_into(parent, lines) if last is None else insert_behind(last, lines)
 
 
 def insert_behind(element: Element, lines: Sequence[str]) -> Edit:
     """Return the edit that puts elements behind another one; see `insert_into`."""
+    element = element.written
     parent = element.parent or element
     end = _behind_comments(element.source, element.position.end)
     span = Span(element.source, end, end, parent)
@@ -89,8 +94,13 @@ def _behind_comments(source: SourceText, offset: int) -> int:
         at = behind
 
 
+def attribute_edits(element: Element, values: Mapping[str, str]) -> tuple[Edit, ...]:
+    """Return the edits that give an element attributes, and those that it has other values."""
+    return tuple(each.edit for each in with_attributes(element.written, values))
+
+
 def with_attributes(element: Element, values: Mapping[str, str]) -> list[Insertion]:
-    """Return what gives an element attributes, and those that it has other values."""
+    """Return what `attribute_edits` replace, and by what, in the text of the element itself."""
     stated = {name: element.attribute(name) for name in values}
     end = element.name_span.end
     added = "".join(f' {name}="{values[name]}"' for name, old in stated.items() if old is None)
@@ -103,7 +113,7 @@ def with_attributes(element: Element, values: Mapping[str, str]) -> list[Inserti
 
 def removal(element: Element) -> Edit:
     """Return the edit that takes an element out; see `with_blanks`."""
-    return with_blanks(element.whole_span).replacement("")
+    return with_blanks(element.written.whole_span).replacement("")
 
 
 def with_blanks(span: Span) -> Span:

@@ -14,7 +14,6 @@ ros_gz_project_template issue 23, gz-sensors issue 306.
 """
 
 from checker.finding import Fix
-from checker.formats.xacro.expanded import written_element
 from checker.launch.ros1.bridge import Direction
 from checker.launch.ros2.graph import Node, is_known
 from checker.model.components import Sensor
@@ -72,10 +71,9 @@ def _frame(sensor: Sensor, robot: Robot) -> str:
 
 def _stated(sensor: Sensor, line: str, frame: str) -> Fix | None:
     """Return the fix that adds a line; None where the file puts the name of the frame together."""
-    element = written_element(sensor.element)
-    if frame not in element.source.text:
+    if frame not in sensor.element.written.source.text:
         return None
-    return Fix(Safety.UNSAFE, (append_to(element, [line]),))
+    return Fix(Safety.UNSAFE, (append_to(sensor.element, [line]),))
 
 
 def _may_publish_more(simulation: Simulation, spawned: SpawnedRobot) -> bool:

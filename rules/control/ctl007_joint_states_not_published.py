@@ -17,7 +17,7 @@ from checker.ros.control.controllers import ControlLaunch, ControlSystem
 from checker.ros.control.nodes import StateListener
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
-from checker.source.xml_insertion import append_to, with_attributes
+from checker.source.xml_insertion import append_to, attribute_edits
 
 
 @rule("CTL007", "joint-states-not-published", Severity.ERROR, Concern.INTERFACE)
@@ -48,8 +48,7 @@ def _remapped(listener: StateListener, topic: str) -> Fix | None:
     if not isinstance(element, Element):
         return None
     if element.tag == "remap":
-        edits = [each.edit for each in with_attributes(element, {"to": topic})]
-        return Fix(Safety.UNSAFE, tuple(edits))
+        return Fix(Safety.UNSAFE, attribute_edits(element, {"to": topic}))
     line = f'<remap from="joint_states" to="{topic}"/>'
     return Fix(Safety.UNSAFE, (append_to(element, [line]),))
 

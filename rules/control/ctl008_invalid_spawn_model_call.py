@@ -13,7 +13,6 @@ from collections.abc import Iterable
 
 from checker.base.words import Suggestions
 from checker.finding import Fix
-from checker.formats.xacro.expanded import written_element
 from checker.ros.control.controllers import ControlPlugin, ControlSystem
 from checker.ros.control.nodes import SpawnedModel
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule, unchecked
@@ -133,7 +132,7 @@ def _stated(plugin: ControlPlugin, control: ControlSystem) -> Fix | None:
     if len(control.namespaces) != 1:
         return None
     line = f"<robotNamespace>{min(control.namespaces)}</robotNamespace>"
-    return Fix(Safety.UNSAFE, (append_to(written_element(plugin.plugin.element), [line]),))
+    return Fix(Safety.UNSAFE, (append_to(plugin.plugin.element, [line]),))
 
 
 _SPAWN = "launch/spawn.launch"

@@ -17,7 +17,6 @@ import math
 
 from checker.finding import Fix
 from checker.formats.corrections import along_z, reposed, rewrite
-from checker.formats.xacro.expanded import written_element
 from checker.model.components import Joint
 from checker.model.geometry.placed_shapes import Placed, place_shapes
 from checker.model.geometry.transform import Transform, Vector
@@ -126,9 +125,7 @@ def _wrong_axis(
     if robot.conventions.has_default_axis and not axis.xyz[0].stated:
         place: Joint | Located[float] = joint
         turns = "has no <axis>, so it turns about x, URDF's default"
-        fix: Fix | None = Fix(
-            Safety.UNSAFE, (append_to(written_element(joint.element), [element]),)
-        )
+        fix: Fix | None = Fix(Safety.UNSAFE, (append_to(joint.element, [element]),))
     else:
         place = axis.xyz[0]
         fix = rewrite(zip(axis.xyz, along, strict=True))

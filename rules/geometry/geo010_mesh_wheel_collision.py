@@ -12,7 +12,6 @@ from collections.abc import Iterator
 
 from checker.finding import Fix
 from checker.formats.corrections import along_z, number_text, pose_edits
-from checker.formats.xacro.expanded import written_element
 from checker.model.components import Collision, Link
 from checker.model.geometry.boxes import Box, box_around
 from checker.model.geometry.transform import Transform, Vector
@@ -57,7 +56,7 @@ def _as_cylinder(robot: Robot, link: Link, shape: Collision, axis: Vector | None
     if robot.conventions.is_urdf:
         new = f'<cylinder radius="{radius}" length="{length_text}"/>'
     posed = pose_edits(robot, shape, Transform(turn.rotation, turn.apply(box.centre)))
-    written = written_element(shape.geometry.element).whole_span.replacement(new)
+    written = shape.geometry.element.written.whole_span.replacement(new)
     return Fix(Safety.UNSAFE, (*posed, written)) if posed else None
 
 

@@ -19,7 +19,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from checker.finding import Fix, Safety
-from checker.formats.xacro.expanded import written_element
 from checker.model.components import Joint
 from checker.model.geometry.placed_shapes import union
 from checker.model.locomotion.drive import body_velocity
@@ -136,8 +135,7 @@ def _expected(robot: Robot, root: str) -> str:
 
 def _fixed(robot: Robot, root: str) -> Fix | None:
     """Return the fix that adds link and joint; None where xacro puts the name together."""
-    written = written_element(robot.element)
-    if written_element(robot.tree.links[root].element).get("name") != root:
+    if robot.tree.links[root].element.written.get("name") != root:
         return None
     parent, child = f"<parent>{WORLD}</parent>", f"<child>{root}</child>"
     lines = []
@@ -145,7 +143,7 @@ def _fixed(robot: Robot, root: str) -> Fix | None:
         parent, child = f'<parent link="{WORLD}"/>', f'<child link="{root}"/>'
         lines = [f'<link name="{WORLD}"/>']
     lines += [f'<joint name="{WORLD}_to_{root}" type="fixed">', f"  {parent}", f"  {child}"]
-    return Fix(Safety.UNSAFE, (append_to(written, [*lines, "</joint>"]),))
+    return Fix(Safety.UNSAFE, (append_to(robot.element, [*lines, "</joint>"]),))
 
 
 _URDF = """<robot name="picker">{world}

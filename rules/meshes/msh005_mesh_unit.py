@@ -10,7 +10,6 @@ Source: geometry; Gazebo uses the unit of a COLLADA file and reads STL and OBJ a
 
 from checker.finding import Fix, Safety
 from checker.formats.corrections import number_text, rewrite
-from checker.formats.xacro.expanded import written_element
 from checker.model.geometry.mesh_units import (
     UNIT_LIMITS,
     UNITS,
@@ -20,7 +19,7 @@ from checker.model.geometry.mesh_units import (
 )
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
-from checker.source.xml_insertion import append_to, with_attributes
+from checker.source.xml_insertion import append_to, attribute_edits
 
 
 @rule("MSH005", "mesh-unit", Severity.ERROR, Concern.ROBOT)
@@ -72,15 +71,13 @@ def _scaled(robot: Robot, mesh: MisscaledMesh) -> Fix | None:
     """Return the fix that scales a mesh by its unit."""
     times = 1.0 / UNITS[mesh.unit] if mesh.is_large else UNITS[mesh.unit]
     geometry = mesh.use.shape.geometry
-    written, scale = written_element(geometry.element), geometry.sizes["scale"]
+    element, scale = geometry.element, geometry.sizes["scale"]
     if scale[0].stated:
         return rewrite((number, number.value * times) for number in scale)
     text = " ".join([number_text(times)] * 3)
     if robot.conventions.is_urdf:
-        edits = [each.edit for each in with_attributes(written, {"scale": text})]
-    else:
-        edits = [append_to(written, [f"<scale>{text}</scale>"])]
-    return Fix(Safety.UNSAFE, tuple(edits))
+        return Fix(Safety.UNSAFE, attribute_edits(element, {"scale": text}))
+    return Fix(Safety.UNSAFE, (append_to(element, [f"<scale>{text}</scale>"]),))
 
 
 def _rover(visual: str, collision: str = "<box><size>0.6 0.4 0.3</size></box>") -> str:

@@ -16,7 +16,7 @@ from checker.finding import Fix
 from checker.formats.mjcf.values import numbers
 from checker.physics.compiled.model import CompiledModel, Joint
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
-from checker.source.xml_insertion import insert_into, with_attributes
+from checker.source.xml_insertion import attribute_edits, insert_into
 
 _TURNS = 4 * math.pi
 """Radians; robots whose joints turn twice in both directions exist."""
@@ -56,8 +56,7 @@ def _in_radians(model: CompiledModel) -> Fix:
         return replace_text(stated, "radian", Safety.UNSAFE)
     compiler = next(model.model.tagged("compiler"), None)
     if compiler is not None:
-        added = with_attributes(compiler, {"angle": "radian"})
-        return Fix(Safety.UNSAFE, tuple(each.edit for each in added))
+        return Fix(Safety.UNSAFE, attribute_edits(compiler, {"angle": "radian"}))
     root = model.model.document.root
     return Fix(Safety.UNSAFE, (insert_into(root, ['<compiler angle="radian"/>']),))
 

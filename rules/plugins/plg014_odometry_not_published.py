@@ -16,7 +16,6 @@ gazebo_ros_tricycle_drive.cpp (`gazebo_classic_ros2.json`).
 from collections.abc import Iterator
 
 from checker.finding import Fix
-from checker.formats.xacro.expanded import written_element
 from checker.model.components import Plugin
 from checker.model.plugin_host import PluginHost
 from checker.package.package import Package
@@ -78,7 +77,7 @@ def _unsent(plugin: Plugin, place: Located[str] | Plugin, what: str) -> Finding:
     return finding(
         place,
         f"{plugin.label} does not publish {what}: write {line}, which is false by default",
-        fix=Fix(Safety.UNSAFE, (append_to(written_element(plugin.element), [line]),)),
+        fix=Fix(Safety.UNSAFE, (append_to(plugin.element, [line]),)),
     )
 
 

@@ -16,7 +16,6 @@ from collections.abc import Iterator
 
 from checker.base.words import Suggestions
 from checker.finding import Fix, Safety
-from checker.formats.xacro.expanded import written_element
 from checker.ros.ros2_control.hardware import (
     KNOWN_CHILDREN,
     TYPES,
@@ -85,7 +84,7 @@ def _same_name(control: RobotControl) -> Iterator[Finding]:
 
 def _has_plugin_elsewhere(hardware: Element) -> bool:
     """Return whether xacro leaves out a plugin because of the values of its arguments."""
-    return next(written_element(hardware).descendants("plugin"), None) is not None
+    return next(hardware.written.descendants("plugin"), None) is not None
 
 
 def _strange(hardware: Hardware) -> Iterator[Finding]:
@@ -100,7 +99,7 @@ def _strange(hardware: Hardware) -> Iterator[Finding]:
 
 def _moved(parameter: Element) -> Fix | None:
     """Return the fix that moves a parameter to the end of `<hardware>`."""
-    written = written_element(parameter)
+    written = parameter.written
     holder = written.parent.child("hardware") if written.parent is not None else None
     if holder is None:
         return None

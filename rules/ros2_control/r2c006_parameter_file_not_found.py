@@ -12,7 +12,6 @@ Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
 
 import re
 
-from checker.formats.xacro.expanded import written_element
 from checker.formats.xacro.files import ROOT
 from checker.package.containers import container_with
 from checker.package.installed import left_out, resolve_listed
@@ -97,7 +96,7 @@ def _without_file(manager: GazeboManager, package: Package) -> Findings:
 def _given_at_launch(manager: GazeboManager, package: Package) -> str:
     """Return what the xacro writes as the file, if a launch file may give it; else nothing."""
     stated = manager.plugin.element.child("parameters")
-    written = written_element(stated).text.value if stated is not None else ""
+    written = stated.written.text.value if stated is not None else ""
     named, words = _ARGUMENT.fullmatch(written), package.workspace.launch_words
     return written if named and (not words or named[1] in words) else ""
 

@@ -19,7 +19,6 @@ from msgspec.structs import replace
 
 from checker.base.words import Suggestions, and_list
 from checker.finding import Fix
-from checker.formats.xacro.expanded import written_element
 from checker.model.controllers import Controller
 from checker.package.package import Package
 from checker.ros.ros2_control.claims import Claim, claims_of, sensors_of
@@ -128,7 +127,7 @@ def _added(control: RobotControl, joint: HardwareJoint, line: str) -> Fix | None
     plugins = (it.plugin.value for it in control.hardware if joint in it.joints)
     if not all(is_of_gazebo(plugin) or is_mock(plugin) for plugin in plugins):
         return None
-    return Fix(Safety.UNSAFE, (append_to(written_element(joint.element), [line]),))
+    return Fix(Safety.UNSAFE, (append_to(joint.element, [line]),))
 
 
 _INTERFACES = """<joint name="shoulder">

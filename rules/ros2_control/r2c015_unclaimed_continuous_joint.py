@@ -13,7 +13,6 @@ from collections import Counter
 from collections.abc import Iterator
 
 from checker.finding import Fix
-from checker.formats.xacro.expanded import written_element
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.hardware import HardwareJoint
@@ -59,8 +58,7 @@ def _listened(control: RobotControl) -> Iterator[str]:
 
 
 def _without_commands(joint: HardwareJoint) -> Fix:
-    written = (written_element(command.element) for command in joint.commands)
-    return Fix(Safety.UNSAFE, tuple(map(removal, written)))
+    return Fix(Safety.UNSAFE, tuple(removal(command.element) for command in joint.commands))
 
 
 _CASTER = """

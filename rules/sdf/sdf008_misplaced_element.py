@@ -156,7 +156,7 @@ def _fits(parent: Element, kind: ElementType | None, place: str) -> bool:
 
 def _moved(element: Element, place: str, kinds: _Kinds) -> Fix | None:
     """Return the fix that puts an element where it belongs, next to or around its place."""
-    parent, text = element.parent, element.whole_span.text
+    parent, text = element.parent, element.written.whole_span.text
     if parent is None or "\n" in text or len(parent.all(element.tag)) > 1:
         return None
     beside, around = parent.all(place), parent.parent
@@ -173,6 +173,7 @@ def _wrapping_fix(element: Element, kind: ElementType | None) -> Fix | None:
     """Return the fix that puts an element around another one, if it needs only that."""
     if kind is None or any(needed == "1" for _, _, needed in kind.attributes.values()):
         return None
+    element = element.written
     source, start = element.source, element.position.start
     indentation = indentation_of(source, start)
     outer = "" if indentation is None else newline_of(source, start) + indentation

@@ -54,7 +54,7 @@ def _fix(sensor: Sensor) -> Fix:
     elif within.text.stated:
         edit = within.text.span.replacement("0")
     else:
-        edit = within.whole_span.replacement(_OFF)
+        edit = within.written.whole_span.replacement(_OFF)
     misplaced = (removal(element) for element in sensor.element.all("enable_orientation"))
     return Fix(Safety.SAFE, (edit, *misplaced))
 

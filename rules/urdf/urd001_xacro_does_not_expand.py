@@ -22,7 +22,6 @@ from checker.finding import Fix
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.extensions import simulates
 from checker.formats.xacro.bare_tags import TAGS
-from checker.formats.xacro.expanded import written_element
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.formats.xacro.names import BRACES
 from checker.robots.urdf_files import UrdfFiles
@@ -137,7 +136,7 @@ def _leftover_expressions(element: Element) -> Iterator[Finding]:
 def _as_expression(element: Element, name: str, braces: re.Match[str]) -> Fix | None:
     """Return the fix that writes `$` in front of braces, in a file that xacro reads."""
     value = element.attribute(name)
-    read_by_xacro = written_element(element) is not element
+    read_by_xacro = element.written is not element
     if value is None or value.span.text != value.value or not read_by_xacro:
         return None
     start = braces.start()

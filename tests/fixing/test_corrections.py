@@ -39,12 +39,14 @@ UNIT = """<inertial>
 MADE = 'ixx="0.00833333" ixy="0" ixz="0" iyy="0.0283333" iyz="0" izz="0.0333333"'
 
 
-def fixed(folder: Path, text: str, *rules: str, prove: bool = False) -> tuple[str, Fixed]:
+def fixed(
+    folder: Path, text: str, *rules: str, prove: bool = False, profile: str = "urdf"
+) -> tuple[str, Fixed]:
     """Return the text of a robot after all fixes of some rules, and what was done."""
     path = folder / "arm.urdf.xacro"
     path.write_text(text, "utf-8")
-    settings = Settings(trial=False, profile="urdf")
-    chosen = Settings(trial=False, profile="urdf", select=rules)
+    settings = Settings(trial=False, profile=profile)
+    chosen = Settings(trial=False, profile=profile, select=rules)
     with open_input(path) as opened:
         done = fix_package(
             opened.packages[0],
@@ -80,6 +82,45 @@ def test_a_macro_without_inertial_gets_one(tmp_path: Path) -> None:
     after, _ = fixed(tmp_path, ROBOT.format(inertial="", other="0.4"), "URD007")
     assert after.count('<mass value="8"/>') == 1
     assert after.count("<inertial>") == 1
+
+
+SENSOR = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:macro name="measures" params="name">
+  <link name="${name}"/>
+  <gazebo reference="${name}">
+    <sensor name="${name}_sensor" type="KIND">
+      <BLOCK>
+        WRITTEN<update_rate/>
+      </BLOCK>
+    </sensor>
+  </gazebo>
+</xacro:macro>
+<xacro:measures name="base_link"/>
+</robot>
+"""
+VIEW = """<horizontal_fov>1</horizontal_fov>
+        <image><width>1280</width><height>960</height></image>
+        """
+
+
+@pytest.mark.parametrize(
+    ("rule", "kind", "block", "written", "new"),
+    [
+        ("SEN013", "imu", "imu", "", '<imu>\n        <angular_velocity>\n          <x>\n'),
+        (
+            "SEN009", "camera", "camera", f"{VIEW}<lens><intrinsics/></lens>",
+            "<lens><intrinsics><fx>1171.51</fx><fy>1171.51</fy>",
+        ),
+    ],
+)  # fmt: skip
+def test_what_a_sensor_lacks_is_written_into_its_macro(
+    tmp_path: Path, rule: str, kind: str, block: str, written: str, new: str
+) -> None:
+    text = SENSOR.replace("KIND", kind).replace("BLOCK", block).replace("WRITTEN", written)
+    after, done = fixed(tmp_path, text, rule, profile="subt")
+    assert new in after
+    assert done.rounds == 1
+    assert not done.left
 
 
 @pytest.mark.parametrize(

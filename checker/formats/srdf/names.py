@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from enum import StrEnum
 
 from checker.base.record import Record
-from checker.formats.xacro.expanded import written_elements
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -68,31 +67,29 @@ _BELOW = (
 
 def named_parts(root: Element) -> Iterator[NamedPart]:
     """Yield the parts that a `<robot>` of SRDF names; names that xacro computes are left out."""
-    written = written_elements(root.document)
     for group in root.all("group"):
-        yield from _named(group, _IN_GROUPS, group.get("name") or "", written)
+        yield from _named(group, _IN_GROUPS, group.get("name") or "")
     for state in root.all("group_state"):
         joints = (("joint", "name", "joint", Loss.STATE_JOINT),)
-        yield from _named(state, joints, state.get("name") or "", written)
-    yield from _named(root, _BELOW, "", written)
+        yield from _named(state, joints, state.get("name") or "")
+    yield from _named(root, _BELOW, "")
 
 
 def _named(
     element: Element,
     rows: tuple[tuple[str, str, str, Loss], ...],
     owner: str,
-    written: Mapping[Element, Element],
 ) -> Iterator[NamedPart]:
     for tag, attribute, kind, loss in rows:
         for child in element.all(tag):
             name = child.attribute(attribute)
-            if name is not None and name.value.strip() and not _is_computed(child, name, written):
+            if name is not None and name.value.strip() and not _is_computed(child, name):
                 stated = Located(name.value.strip(), name.span)
                 yield NamedPart(kind, stated, loss, owner or child.get("name") or "")
 
 
-def _is_computed(element: Element, name: Located[str], written: Mapping[Element, Element]) -> bool:
-    origin = written.get(element, element)
+def _is_computed(element: Element, name: Located[str]) -> bool:
+    origin = element.written
     literal = name.value in (origin.get(each) for each in origin.attributes)
     return "$" in name.value or not literal
 

@@ -87,6 +87,21 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
         return self._emitted.place(start, end)
 
 
+class ExpandedDocument(XmlDocument, eq=False, dict=True):
+    """A document that xacro made: it knows the elements that its own are copies of."""
+
+    source: ExpandedText
+
+    @cached_property
+    def _origins(self) -> Mapping[Element, Element]:
+        pairs = zip(self.elements, self.source.origins, strict=True)
+        return {copy: origin for copy, origin in pairs if origin is not None}
+
+    def written(self, element: Element) -> Element:
+        """Return the element of a file that one of this document is a copy of."""
+        return self._origins.get(element, element)
+
+
 def expanded_document(
     answer: Mapping[str, Any], gathered: Gathered, file: str
 ) -> XmlDocument | None:
@@ -110,20 +125,7 @@ def expanded_document(
         written.file, text, plain=plain, answer=answer, gathered=gathered, written=written
     )
     # The tree and the offsets are the same: only the places differ.
-    return XmlDocument(source, plain.tree, plain.positions)
-
-
-def written_elements(document: XmlDocument) -> Mapping[Element, Element]:
-    """Return the element that each of a document is a copy of; none where xacro did not make it."""
-    if not isinstance(document.source, ExpandedText):
-        return {}
-    pairs = zip(document.elements, document.source.origins, strict=True)
-    return {copy: origin for copy, origin in pairs if origin is not None}
-
-
-def written_element(element: Element) -> Element:
-    """Return the element of a file that xacro made another one of; that one where it did not."""
-    return written_elements(element.document).get(element, element)
+    return ExpandedDocument(source, plain.tree, plain.positions)
 
 
 def _origins(answer: Mapping[str, Any], gathered: Gathered) -> list[Element | None]:

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 
 from checker.finding import Edit, Fix, Safety
 from checker.formats.corrections import is_shared, number_text, rewrite
-from checker.formats.xacro.expanded import written_elements
 from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.bodies import Body, together
 from checker.model.geometry.solids import solid_of
@@ -99,10 +98,9 @@ def inertial_fix(robot: Robot, link: Link) -> Fix | None:
 
     A link without `<inertial>` is taken for as dense as water. None as for `moments_fix`.
     """
-    origins = written_elements(link.element.document)
-    written = origins.get(link.element, link.element)
+    written = link.element.written
     # A macro makes several.
-    links = [each for each in robot.links if origins.get(each.element, each.element) is written]
+    links = [each for each in robot.links if each.element.written is written]
     edits = {_inertial_edit(robot, each, written) for each in links}
     edit = edits.pop() if len(edits) == 1 else None
     return Fix(Safety.UNSAFE, (edit,)) if edit else None
