@@ -127,6 +127,11 @@ BRACKET = """
 DRAWN_CUBE = {"meshes/cube.obj": CUBE + "".join(f"f {side}\n" for side in SIDES)}
 CUBE_MESH = "<mesh><uri>meshes/cube.obj</uri></mesh>"
 CUBE_BOX = "<box><size>0.1 0.1 0.1</size></box>"
+SCANNER = """<link name="plate"><visual><geometry><box size="1 1 0.1"/></geometry></visual></link>
+<link name="lidar"><visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual></link>
+<joint name="foot" type="fixed"><parent link="base_link"/><child link="plate"/></joint>
+<joint name="mast" type="{}"><origin xyz="{}"/><parent link="plate"/><child link="lidar"/></joint>
+"""
 ARM = """
 <link name="arm"><gravity>0</gravity></link>
 <joint name="j" type="revolute"><parent>base_link</parent><child>arm</child></joint>
@@ -337,6 +342,10 @@ CASES: list[tuple[str, Example, str]] = [
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
     ("GEO003", DRAWN_WHEEL, "warning"),
+    ("GEO012", {"@urdf": SCANNER.format("fixed", "0.2 0 0.2")}, "info"),
+    ("GEO012", {"@urdf": SCANNER.format("prismatic", "0.2 0 0.2")}, "warning"),
+    ("GEO012", {"@urdf": SCANNER.format("fixed", "0.2 0 0.4")}, "warning"),
+    ("GEO012", {"@urdf": SCANNER.format("fixed", "0.6 0 0.2")}, "warning"),
     ("GEO003", TOUCHING_WHEEL, "error"),
     ("LCH012", ROLLING, "error"),
     ("LCH012", ON_A_BALL, "warning"),

@@ -8,6 +8,8 @@ measure up to 16 mm, and mistakes 38 mm or more. In scenery, with no moving join
 it is an info: two tables in one file stand apart by intent. Two arms may stand apart as well, each
 with a base that is fixed to the world or to a root link without shapes, directly or through links
 without shapes. So may a part that is fixed to the world, such as a camera that looks at the robot.
+A part that is fixed straight above another, such as a lidar over a plate, has a mount that the
+model leaves out: an info, but for SubT, up to a gap of `mount`.
 
 Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it. Where
 the message names a visual and a collision that differ, give both one pose.
@@ -36,6 +38,7 @@ def check(
     gap_of_wheels: float = 0.06,
     marker: float = 0.02,
     ball: float = 0.025,
+    mount: float = 0.15,
 ) -> Findings:
     """Report groups of shapes that are more than `gap` from all other shapes.
 
@@ -46,6 +49,7 @@ def check(
         marker: Diagonal in metres of a box that only marks a frame; a group that is not larger is
             not reported.
         ball: Radius in metres of a ball up to which it marks a point, if its link has nothing else.
+        mount: Metres of a gap below a fixed part up to which a mount is left out.
     """
     if robot.is_static:
         return
@@ -63,7 +67,8 @@ def check(
         reason = reason or f"the size of {unknown[0].name.value!r} is not known"
         yield unchecked(f"{reason}; parts that seem to float may be attached to it")
         return
-    is_scenery = robot.is_prop and not context.is_subt
+    outside_subt = not context.is_subt
+    is_scenery = robot.is_prop and outside_subt
     members = [[shapes[number] for number in group] for group in groups]
     body = max(members, key=_diagonal)
     for group in members:
@@ -75,7 +80,8 @@ def check(
             own = {*group}
             others = [piece for piece in shapes if piece not in own]
             distance = _distance(group, [piece.box for piece in others])
-            severity = Severity.INFO if is_scenery else None
+            is_info = is_scenery or (outside_subt and _lacks_mount(robot, group, others, mount))
+            severity = Severity.INFO if is_info else None
             yield _floating_part(group, distance, gap, severity, _twin(group, others))
 
 
@@ -122,6 +128,23 @@ def _is_on_world(robot: Robot, group: Sequence[Placed]) -> bool:
             return True
         at = {it for it in above if not (tree.links[it].collisions or tree.links[it].visuals)}
     return False
+
+
+def _lacks_mount(
+    robot: Robot, group: Sequence[Placed], others: Sequence[Placed], reach: float
+) -> bool:
+    """Return whether a group is fixed straight above another part, with at most a gap."""
+    box, links = union(piece.box for piece in group), {piece.link.scoped_name for piece in group}
+    ties = (tie for name in links for tie in robot.tree.ties_above.get(name, ()))
+    if box is None or any(it.joint.type.value != "fixed" and it.parent not in links for it in ties):
+        return False
+    x, y, _ = box.centre
+    below = (
+        it.box.high[2]
+        for it in others
+        if it.box.low[0] <= x <= it.box.high[0] and it.box.low[1] <= y <= it.box.high[1]
+    )
+    return any(0.0 <= box.low[2] - top <= reach for top in below)
 
 
 def _roots_without_shapes(tree: LinkTree) -> set[str]:
