@@ -521,6 +521,34 @@ def test_a_prop_needs_less_than_a_robot(joint: str, severities: set[str], tmp_pa
 
 
 @pytest.mark.parametrize(
+    ("shape", "kind", "severity"),
+    [
+        ("", "fixed", "warning"),
+        ("", "revolute", "error"),
+        (PICTURE.format("1 1 1"), "fixed", "error"),
+    ],
+)
+def test_a_frame_on_the_base_needs_no_inertia(
+    shape: str, kind: str, severity: str, tmp_path: Path
+) -> None:
+    inertia = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"
+    (tmp_path / "cart.sdf").write_text(
+        f"""<sdf version="1.9"><model name="cart">
+<link name="base_link"><inertial><mass>1</mass>{inertia}</inertial></link>
+<link name="frame">{shape}</link>
+<joint name="j" type="{kind}"><parent>base_link</parent><child>frame</child></joint>
+<link name="wheel"><inertial><mass>1</mass>{inertia}</inertial></link>
+<joint name="axle" type="revolute"><parent>base_link</parent><child>wheel</child></joint>
+</model></sdf>
+""",
+        "utf-8",
+    )
+    settings = Settings(profile="gazebo-harmonic", profile_chosen=True, select=("INE001",))
+    (report,) = check_package(tmp_path / "cart.sdf", settings).packages
+    assert [str(finding.severity) for finding in report.findings] == [severity]
+
+
+@pytest.mark.parametrize(
     ("world", "severity"),
     [
         ("worlds/hall.world", "error"),
