@@ -40,7 +40,9 @@ def model_target(package: Package, around: Package | None, *, in_classic: bool) 
     else:
         classic = classic_sign(package)
         fortress = "" if classic else fortress_sign(package)
-        classic = classic or ("" if fortress else _classic_beside(package))
+        if not (classic or fortress) and (beside := _classic_beside(package)):
+            fortress = _ignition_sign(package)
+            classic = "" if fortress else beside
     if classic:
         return CLASSIC, classic_reason(classic)
     return (IGNITION, f"Gazebo Fortress: {fortress}") if fortress else ("", "")
@@ -82,9 +84,9 @@ def _classic_model_sign(package: Package, around: Package) -> str:
 
 
 def _ignition_sign(package: Package) -> str:
-    """Return what shows that a model or world in a package for Classic is for Ignition; else empty.
+    """Return what shows that a model or world is for Ignition, where all else is for Classic.
 
-    Nothing does where it has its own package.xml, or a launch file names it.
+    Empty if nothing does, as where it has its own package.xml, or a launch file names it.
     """
     if package.exists("package.xml") or package.workspace.launches_with(package.name):
         return ""

@@ -396,6 +396,23 @@ def test_models_without_a_package_are_for_classic_where_all_packages_beside_are(
 
 
 @pytest.mark.parametrize(
+    ("plugin", "expected"),
+    [
+        ("libignition-gazebo-physics-system.so", "gazebo-fortress"),
+        ("libown.so", "gazebo-classic"),
+    ],
+)
+def test_a_world_of_ignition_beside_packages_of_classic(
+    plugin: str, expected: str, tmp_path: Path
+) -> None:
+    write_example({"@ros2": SPAWN}, tmp_path / "src")
+    (tmp_path / "hall.sdf").write_text(WORLD.format(plugin))
+    with open_input(tmp_path) as opened:
+        (world,) = (it for it in opened.packages if it.name == "hall.sdf")
+        assert Settings().for_package(world).profile == expected
+
+
+@pytest.mark.parametrize(
     ("near", "expected"),
     [
         *(("", "humble"), ("ROS 2 Jazzy", "jazzy"), ("Humble? ros:iron", "iron")),
