@@ -3,7 +3,8 @@
 Exporters write the unit tensor by default: a hand-sized part with 1 kg·m² turns as if it weighed a
 ton. If links of different mass or size share one tensor, it is copied and right for at most one of
 them; if most of them are alike, for these, and only the others are reported. Of a model for Gazebo
-without a sensor, a plugin or moving joints, such as a box in a world, it is an info.
+without a sensor, a plugin or moving joints, such as a box in a world, it is an info; so is a unit
+tensor that is within a factor of 3 of what the shapes of the link have at its mass.
 
 Fix: compute the moments of each link, with CAD or with the formula of the most similar solid.
 Source: Model Migration Guide; review of exported models.
@@ -96,6 +97,7 @@ def _unit(robot: Robot, inertia: LinkInertia) -> Iterator[Finding]:
             inertia.moments_span,
             f"link {inertia.link.name.value!r} of {inertia.mass:.4g} kg has the unit tensor "
             "of inertia, 1 kg·m² about each axis",
+            severity=Severity.INFO if _is_own(robot, inertia, _UNIT) else None,
             key="unit",
             covered_by=_MORE_PRECISE,
             fix=moments_fix(robot, inertia.link),

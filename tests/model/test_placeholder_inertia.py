@@ -80,15 +80,20 @@ def test_moments_of_one_formula_are_one_finding(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("part", "severity"),
-    [("", Severity.INFO), ('<sensor name="s" type="imu"/>', Severity.WARNING)],
+    ("part", "mass", "severity"),
+    [
+        ("", 1, Severity.INFO),
+        ('<sensor name="s" type="imu"/>', 1, Severity.WARNING),
+        # Its shape gives 1.5 kg·m².
+        ('<sensor name="s" type="imu"/>', 9, Severity.INFO),
+    ],
 )
-def test_the_unit_tensor_of_a_prop_is_an_info(
-    tmp_path: Path, part: str, severity: Severity
+def test_a_unit_tensor_of_a_prop_or_about_right_is_an_info(
+    tmp_path: Path, part: str, mass: float, severity: Severity
 ) -> None:
     ones = "<ixx>1</ixx><iyy>1</iyy><izz>1</izz>"
     (tmp_path / "crate.sdf").write_text(f"""<sdf version="1.9"><model name="crate">
-<link name="crate"><inertial><mass>2</mass><inertia>{ones}</inertia></inertial>{part}
+<link name="crate"><inertial><mass>{mass}</mass><inertia>{ones}</inertia></inertial>{part}
   <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>
 </link></model></sdf>""")
     settings = Settings(trial=False, select=("INE007",), profile="gazebo-harmonic")
