@@ -282,6 +282,17 @@ TWICE = "".join(
     BRIDGE.format("a", f"nav_msgs/msg/{it}", "Odometry") for it in ("Odometry", "odometry")
 )
 
+GRIP = DRAWN_WHEEL.replace("visual", "collision").replace(
+    "</geometry>",
+    "</geometry><surface><friction><ode><mu>150</mu><mu2>150</mu2></ode></friction></surface>",
+)
+REAR_GRIP = (
+    GRIP.replace('"wheel"', '"rear"').replace(">wheel<", ">rear<").replace('"axle"', '"rear_axle"')
+)
+SKIDDING = REAR_GRIP.partition("<plugin")[0] + GRIP.replace(
+    "</plugin>", "<left_joint>rear_axle</left_joint></plugin>"
+)
+
 CASES: list[tuple[str, Example, str]] = [
     ("SDF013", FRICTION.format(second=""), "info"),
     ("SDF013", FRICTION.format(second="<mu>1</mu>"), "warning"),
@@ -342,6 +353,7 @@ CASES: list[tuple[str, Example, str]] = [
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
     ("GEO003", DRAWN_WHEEL, "warning"),
+    ("GEO009", GRIP, "warning"),
     ("GEO012", {"@urdf": SCANNER.format("fixed", "0.2 0 0.2")}, "info"),
     ("GEO012", {"@urdf": SCANNER.format("prismatic", "0.2 0 0.2")}, "warning"),
     ("GEO012", {"@urdf": SCANNER.format("fixed", "0.2 0 0.4")}, "warning"),
@@ -517,6 +529,19 @@ def test_a_prop_needs_less_than_a_robot(joint: str, severities: set[str], tmp_pa
     settings = Settings(profile="gazebo-harmonic", profile_chosen=True, select=wanted, trial=False)
     (report,) = check_package(tmp_path / "barrel.sdf", settings).packages
     assert {finding.rule for finding in report.findings} == set(wanted)
+    assert {str(finding.severity) for finding in report.findings} == severities
+
+
+@pytest.mark.parametrize(
+    ("wheels", "severities"),
+    [(GRIP, {"info"}), (SKIDDING, {"warning"}), (GRIP.replace("150", "0"), {"warning"})],
+)
+def test_high_friction_matters_where_wheels_skid(
+    wheels: str, severities: set[str], tmp_path: Path
+) -> None:
+    package = write_example(wheels, tmp_path)
+    settings = Settings(profile="gazebo-harmonic", profile_chosen=True, select=("GEO009",))
+    (report,) = check_package(package, settings).packages
     assert {str(finding.severity) for finding in report.findings} == severities
 
 

@@ -1,8 +1,9 @@
 """A wheel, track or foot without friction, or with impossibly high friction.
 
 Without friction a wheel spins in place. Rubber on rock reaches about 1; with a coefficient of 150
-the robot climbs walls that no real robot climbs, and some engines jitter. Engines use different
-defaults for friction that is not stated.
+the robot climbs walls that no real robot climbs, and some engines jitter. Outside of submissions
+too high a friction is an info, since it only keeps the wheels from slipping, except in a robot that
+turns by skidding. Engines use different defaults for friction that is not stated.
 
 A part that does not roll, such as a ball in place of a caster that is fixed to the robot or turns
 about an upright axis, slides: it may be without friction, and brakes the robot with that of a tyre.
@@ -19,15 +20,20 @@ from collections.abc import Iterator
 from checker.formats.friction import Friction, FrictionReader
 from checker.model.components import Collision, Link
 from checker.model.geometry.placed_shapes import place_shapes
+from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _UPRIGHT = 0.9
 """Part along z of an axis about which a wheel swivels, and does not roll."""
+_SKIDDING = (DriveKind.SKID_STEER, DriveKind.TRACKED)
+"""They turn by slipping sideways, which a high friction prevents."""
 
 
 @rule("GEO009", "wheel-friction", Severity.WARNING, Concern.ROBOT)
-def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Findings:
+def check(
+    robot: Robot, context: Context, *, most: float = 10.0, foot_height: float = 0.02
+) -> Findings:
     """Report coefficients of 0 or less and above `most`, and single wheels that state none.
 
     If no other part states friction, or of the driven wheels none does, this is an info.
@@ -37,6 +43,7 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
         foot_height: Metres above a legged robot's lowest point; collisions of moving links that
             reach below this height count as feet.
     """
+    too_high = None if context.is_subt or robot.locomotion.kind in _SKIDDING else Severity.INFO
     reader = FrictionReader(robot)
     across = _mu2_meanings(robot)
     touching = [
@@ -51,7 +58,8 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
     for link, shape, friction in touching:
         of_drive = link.scoped_name in driven
         if of_drive or link.scoped_name not in robot.tree.base or not _slides(friction):
-            yield from _absurd(link, friction, most, across.get(link.scoped_name, _Across.AS_ALONG))
+            sideways = across.get(link.scoped_name, _Across.AS_ALONG)
+            yield from _absurd(link, friction, most, sideways, too_high)
         if friction.first is None:
             some_state = of_drive in stating or (not of_drive and bool(stating))
             yield _missing(link, shape, some_state, not of_drive and not _rolls(robot, link))
@@ -84,7 +92,10 @@ def _mu2_meanings(robot: Robot) -> dict[str, _Across]:
     return known
 
 
-def _absurd(link: Link, friction: Friction, most: float, across: _Across) -> Iterator[Finding]:
+def _absurd(
+    link: Link, friction: Friction, most: float, across: _Across, too_high: Severity | None
+) -> Iterator[Finding]:
+    """Report impossible coefficients, those above `most` with the severity `too_high`."""
     first, second = friction.first, friction.second
     if first is not None and second is not None and first.value == second.value:
         second = None  # one mistake, reported once
@@ -98,6 +109,7 @@ def _absurd(link: Link, friction: Friction, most: float, across: _Across) -> Ite
                 number,
                 f"the friction of {link.name.value!r} is {number.value:g}, expected more than 0 "
                 f"and at most {most:g}",
+                severity=too_high if number.value > most else None,
                 key=f"{'mu' if number is first else 'mu2'} {number.value:g}",
             )
 
