@@ -4,8 +4,10 @@ The plugin of gz_ros2_control, ign_ros2_control or gazebo_ros2_control runs a co
 Gazebo. A `ros2_control_node` of the same launch is a second node of that name: it cannot load the
 hardware of Gazebo, which exists in Gazebo alone, and which of both answers a spawner is chance.
 
-It is reported where both start with the defaults of all arguments, or with another value of one
-argument that has `true` or `false` as its default, or a list of choices.
+A plugin that the started Gazebo cannot load runs none: one of Gazebo Classic in Gazebo Sim, or the
+other way round (PLG001, PLG002). It is reported where both start with the defaults of all
+arguments, or with another value of one argument that has `true` or `false` as its default, or a
+list of choices.
 
 Fix: remove `ros2_control_node`, or start it under the condition that Gazebo is not started.
 Source: gz_ros2_control, issue 83; ros2_control, issue 1143.
@@ -23,12 +25,14 @@ from checker.model.ros_parameters import MANAGER
 from checker.package.package import Package
 from checker.ros.ros2_control.launched import MANAGER_NODE, LaunchedControl
 from checker.ros.ros2_control.robot_control import GazeboManager
-from checker.ros.spawned import EVERY_SPAWN
+from checker.ros.spawned import CLASSIC_SPAWNS, EVERY_SPAWN
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _MOST = 8
 """Launches with another value of an argument that are tried."""
 _SWITCH = {"true": "false", "false": "true"}
+_OF_CLASSIC = ("gazebo_ros2_control",)
+_OF_LATER = ("gz_ros2_control", "ign_ros2_control")
 _MOVES = "-robot_namespace"
 """An option of spawn_entity.py that gives the plugins another namespace."""
 
@@ -79,12 +83,19 @@ def _pairs(launched: LaunchedControl) -> Iterator[tuple[Node, GazeboManager, Nod
         moved = any(word.value == _MOVES for word in spawned.node.arguments)
         if not spawned.node.starts or moved:
             continue
-        for manager in launched.reader.plugin_files(spawned.robot).managers:
+        managers = launched.reader.plugin_files(spawned.robot).managers
+        for manager in (it for it in managers if _loads(spawned.node, it)):
             for node in launched.managers:
                 own = node.name.value if node.name is not None else MANAGER
                 name = resolve_name(own, node.namespace)
                 if is_known(name) and name == _full_name(manager):
                     yield node, manager, spawned.node
+
+
+def _loads(spawn: Node, manager: GazeboManager) -> bool:
+    """Return whether the Gazebo in which a node spawns loads a plugin: Classic only its own."""
+    in_classic = (spawn.package.value, spawn.executable.value) in CLASSIC_SPAWNS
+    return not manager.library.startswith(_OF_LATER if in_classic else _OF_CLASSIC)
 
 
 def _full_name(manager: GazeboManager) -> str:
@@ -131,15 +142,17 @@ def _rover(
 
 
 _MARK = "/>  <!-- ^ WIR022 -->"
-_CLASSIC = {"spawn": "gazebo_ros spawn_entity.py", "library": "libgazebo_ros2_control.so"}
+_SPAWN_OF_CLASSIC, _OF_CONTROL = "gazebo_ros spawn_entity.py", "libgazebo_ros2_control.so"
 GOOD = [
     _rover(more=' unless="$(var sim)"/>'),
     _rover(namespace="rover"),
     _rover(library="gz-sim-diff-drive-system"),
+    _rover(library=_OF_CONTROL),
+    _rover(spawn=_SPAWN_OF_CLASSIC),
 ]
 BAD = [
     _rover(more=_MARK),
     _rover(more=_MARK, sim="false"),
     _rover(more=f' namespace="rover"{_MARK}', namespace="rover"),
-    _rover(more=_MARK, **_CLASSIC),
+    _rover(more=_MARK, spawn=_SPAWN_OF_CLASSIC, library=_OF_CONTROL),
 ]
