@@ -7,6 +7,7 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.formats.xacro.files import local_path
+from checker.launch.ros1.launch_file import Load
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph, Node, is_known
 from checker.launch.ros2.package_launch import launches_naming
@@ -30,7 +31,13 @@ class _Spawn(Record):
     """A description that a node spawns: its file, empty if it is none of the package's."""
 
     file: str
-    in_classic: bool
+    node: Node
+    load: Load | None = None
+
+    @property
+    def in_classic(self) -> bool:
+        """Whether Gazebo Classic gets it."""
+        return _program(self.node) in CLASSIC_SPAWNS
 
 
 class SpawnedFiles(Record, eq=False, dict=True):
@@ -73,7 +80,7 @@ class SpawnedFiles(Record, eq=False, dict=True):
         """Return whether a launch file that loads a robot starts what spawns it into Gazebo."""
         file = robot.document.source.file
         return any(
-            (node.package.value, node.executable.value) in EVERY_SPAWN and node.starts
+            _program(node) in EVERY_SPAWN and node.starts
             for graph, loaded in self._graphs
             if file in map(self._file, loaded)
             for node in graph.nodes_and_spawns
@@ -84,6 +91,19 @@ class SpawnedFiles(Record, eq=False, dict=True):
         file = robot.document.source.file
         found = {it.in_classic for it in self._spawns or () if it.file == file}
         return found.pop() if len(found) == 1 else None
+
+    def misplaced(self, robot: Robot) -> Sequence[Node]:
+        """Return the nodes that spawn a robot into Gazebo Sim, though more files do into Classic.
+
+        Classic gets the same file with the same arguments. None where that is not known.
+        """
+        file = robot.document.source.file
+        own = [it for it in self._spawns or () if it.file == file]
+        classic = [it for it in own if it.in_classic]
+        given = [it.load for it in classic]
+        later = [it.node for it in own if not it.in_classic and it.load in given]
+        most = len({it.node.file for it in classic}) > len({it.file for it in later})
+        return later if most else ()
 
     @cached_property
     def _spawns(self) -> tuple[_Spawn, ...] | None:
@@ -98,21 +118,22 @@ class SpawnedFiles(Record, eq=False, dict=True):
         if graph.unread or any(spawned_otherwise(graph)):
             yield None
         for node in graph.nodes_and_spawns:
-            program = (node.package.value, node.executable.value)
-            if program in EVERY_SPAWN:
-                in_classic = program in CLASSIC_SPAWNS
+            if _program(node) in EVERY_SPAWN:
                 given = _given(graph, node, loaded)
-                yield from (self._spawn(graph, it, in_classic=in_classic) for it in given)
+                yield from (self._spawn(graph, node, it) for it in given)
                 if not given:
-                    yield _Spawn("", in_classic) if _is_file(node) else None
+                    yield _Spawn("", node) if _is_file(node) else None
 
-    def _spawn(
-        self, graph: LaunchGraph, given: LoadedDescription, *, in_classic: bool
-    ) -> _Spawn | None:
-        return None if may_load_others(graph, given) else _Spawn(self._file(given), in_classic)
+    def _spawn(self, graph: LaunchGraph, node: Node, given: LoadedDescription) -> _Spawn | None:
+        sure = not may_load_others(graph, given)
+        return _Spawn(self._file(given), node, given.load) if sure else None
 
     def _file(self, loaded: LoadedDescription) -> str:
         return local_path(self.package, loaded.load.path) or ""
+
+
+def _program(node: Node) -> tuple[str, str]:
+    return node.package.value, node.executable.value
 
 
 def _given(
@@ -149,5 +170,4 @@ def _is_file(node: Node) -> bool:
 
 
 def _starts_manager(graph: LaunchGraph) -> bool:
-    programs = {(it.package.value, it.executable.value) for it in graph.nodes_and_spawns}
-    return (MANAGER, MANAGER_NODE) in programs
+    return (MANAGER, MANAGER_NODE) in map(_program, graph.nodes_and_spawns)

@@ -6,7 +6,8 @@ line and continues without the drive, the sensor or the light that the plugin pr
 In a URDF that no launch file spawns into Gazebo it is a warning: RViz, MoveIt and other simulators
 do not read it, and the file may be kept for Gazebo Classic. In one that launch files spawn into
 Gazebo Classic alone (`gazebo_ros`, `spawn_entity.py`) the plugins are right. Where there is no
-launch file at all, it stays an error.
+launch file at all, it stays an error. Where more launch files spawn it into Gazebo Classic than
+into Gazebo, and all its plugins are for Classic, those launch files are reported that do not.
 
 A xacro file may support several simulators by an argument: if its default chooses Gazebo Classic,
 the plugins for later releases are not expanded, and no plugin is reported.
@@ -14,10 +15,11 @@ the plugins for later releases are not expanded, and no plugin is reported.
 No accepted package that we checked has this fault.
 
 Fix: remove the plugin and use what the message names: a sensor in the model, or a system plugin (in
-a submission, in `launch/spawner.rb`).
+a submission, in `launch/spawner.rb`). Where a launch file is reported, start Gazebo Classic in it.
 Source: Model Migration Guide, "Remove/replace unsupported plugins".
 """
 
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from checker.finding import Fix
@@ -32,7 +34,17 @@ from checker.robots.simulator import classic_by_default
 from checker.ros.simulation import Simulations
 from checker.ros.spawned import may_spawn
 from checker.ros.spawned_files import SpawnedFiles
-from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    rule,
+    unchecked,
+)
 from checker.source.xml_insertion import removal
 
 
@@ -60,6 +72,10 @@ def check(
     found = [(plugin, known) for plugin, known in named if known is not None]
     if found and host.robot is not None and spawned.is_in_classic(host.robot):
         return
+    misplaced = [*_misplaced(host.robot, spawned, found)] if host.robot is not None else []
+    if misplaced and len(found) == len(host.plugins):
+        yield from misplaced
+        return
     loaded = (
         not found
         or host.robot is None
@@ -78,6 +94,21 @@ def check(
             severity=Severity.WARNING if needless or not loaded else None,
             key=library_stem(plugin.filename.value),
             fix=Fix(Safety.UNSAFE, (removal(plugin.element),)) if _in_vain(plugin, known) else None,
+        )
+
+
+def _misplaced(
+    robot: Robot, spawned: SpawnedFiles, found: Sequence[tuple[Plugin, dict[str, Any]]]
+) -> Iterator[Finding]:
+    """Yield the nodes that put a robot of Classic into Gazebo, where more launch files do not."""
+    file = robot.document.source.file
+    for node in spawned.misplaced(robot) if found else ():
+        yield finding(
+            node.executable,
+            f"Gazebo Sim gets {file} here and loads none of its plugins ({len(found)}), which are "
+            "of Gazebo Classic: spawn it with gazebo_ros spawn_entity.py, as other launch files do",
+            key=file,
+            related=[(plugin.filename, "a plugin of Gazebo Classic") for plugin, _ in found],
         )
 
 
@@ -150,7 +181,34 @@ _WORLD = """
 """
 _HARMONIC = {"@profile": "gazebo-harmonic"}
 _DRIVE = '<plugin filename="libgazebo_ros_diff_drive.so" name="drive"/>'
+_SPAWN = """<launch>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description" type="str"
+      value="$(command 'xacro $(find-pkg-share acme_rover_bringup)/urdf/rover.urdf')"/>
+  </node>
+  <node pkg="{}" exec="{}" args="-topic robot_description"/>
+</launch>
+"""
+_IN_CLASSIC = _SPAWN.format("gazebo_ros", "spawn_entity.py")
+_IN_GAZEBO = _SPAWN.format("ros_gz_sim", "create")
+
+
+def _rover(drive: str = _DRIVE, **launched: str) -> dict[str, object]:
+    files = {f"launch/{name}.launch.xml": text for name, text in launched.items()}
+    return {
+        "@bridge": True,
+        "@profile": "ros2",
+        "launch/rover.launch.py": None,
+        "urdf/rover.urdf": f'<robot name="rover"><link name="base"/><gazebo>{drive}</gazebo>\n'
+        "</robot>",
+        **files,
+    }
+
+
+_HERE = _IN_GAZEBO.replace("/>\n</launch>", "/>  <!-- ^ PLG001 -->\n</launch>")
+_MARKED = f"{_DRIVE}  <!-- ^ PLG001 -->"
 GOOD = [
+    _rover(world=_IN_CLASSIC),
     {"@profile": "gazebo-classic", "@fragment": _DRIVE},
     '<plugin filename="libignition-gazebo-diff-drive-system.so" name="drive"/>',
 ]
@@ -166,4 +224,12 @@ BAD = [
 """,
     {**_HARMONIC, "@fragment": _WORLD.format("libgazebo_ros_state.so", "state", "^ PLG001")},
     {"@profile": "ros2", "@urdf": f"<gazebo>{_DRIVE}</gazebo>  <!-- ^ PLG001 -->"},
+    _rover(a=_IN_CLASSIC, b=_IN_CLASSIC, c=_HERE),
+    _rover(a=_IN_CLASSIC, b=_IN_GAZEBO, drive=_MARKED),
+    _rover(
+        a=_IN_CLASSIC,
+        b=_IN_CLASSIC,
+        c=_IN_GAZEBO,
+        drive=f'{_MARKED}\n<plugin filename="gz-sim-imu-system" name="imu"/>',
+    ),
 ]
