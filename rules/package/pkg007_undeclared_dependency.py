@@ -7,9 +7,10 @@ packages of nodes, components, included launch files, parameter files, `xacro` c
 and `package://` in robot descriptions, and for `rclpy`, messages and a few modules of ROS, such as
 `cv_bridge`, that nodes in Python import; other modules in Python are not checked. So it does for
 packages of ROS and of the workspace that CMakeLists.txt requires without a condition, and for those
-of controllers and Gazebo's hardware, unless another package of the workspace declares them. One of
-the workspace that the build requires is an error: colcon, which takes the order from package.xml,
-builds both at once, and a build from scratch stops.
+of controllers and Gazebo's hardware, unless another package of the workspace declares them, or only
+comments name the file with the controllers. One of the workspace that the build requires is an
+error: colcon, which takes the order from package.xml, builds both at once, and a build from scratch
+stops.
 Dependencies of a declared metapackage such as ros_gz count as declared. What a declared package of
 the workspace needs where it runs is installed with it, and is an info. The same happens if
 package.xml misspells the package of a team or plugin: it is reported if a package of a similar name
@@ -485,6 +486,12 @@ GOOD = [
         "package.xml": _arm("ros_gz"),
         "config/arm.yaml": _CONTROL,
         "../acme_arm_control/package.xml": _arm("ros2_controllers").replace("_bringup", "_control"),
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz"),
+        "config/arm.yaml": _CONTROL,
+        "urdf/arm.xacro": "<robot name='arm'><!-- $(find a)/config/arm.yaml --></robot>",
     },
     {
         "@ros2": _BRIDGE,
