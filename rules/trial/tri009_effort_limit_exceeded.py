@@ -3,14 +3,16 @@
 The simulated motor stops at its limit: the robot starts slower, does not reach its speed, or drops
 its load. The torque is that of servos without limits. A joint whose effort limit specifications.md
 explains is not checked, nor is a joint that no plugin, controller or transmission moves: a passive
-hinge needs no motor.
+hinge needs no motor. The drive plugins of Gazebo Classic turn wheels with the torque that they
+state, 5 N·m by default, whatever the limit of the joint is.
 
 The joints of an arm, which controllers move, go a small step from their start and back, one by one
 and then together, within their velocity limits: where that needs more than the limit, the arm
 cannot follow its controller even near its start. The gravity of the trial is that of the robot's
 world, as in INE010; the Earth's where the world is not known.
 
-Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
+Fix: give the joint, or the plugin that the message names, the effort (N·m, or N) of the real motor
+with its gear, or correct the masses.
 Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without
 the drive at full speed, and that of inverse dynamics on the paths of an arm's joints, compared with
 the effort limit.
@@ -20,12 +22,15 @@ import re
 
 from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Joint
+from checker.model.locomotion.classic import wheel_torques
 from checker.model.locomotion.commanded_joints import commanded_joints
 from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
 from checker.physics.trial.robot_trial import SettledTrial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.physics.trial.trial import Measurement
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import rover
+from checker.source.text import Located
 
 
 @rule(
@@ -46,6 +51,7 @@ def check(
     """
     limits = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
     motors = _with_motor(driven.robot)
+    of_plugins = wheel_torques(driven.robot)
     needed = [(it, "") for it in driven.trial.all("torque") if it.part in motors]
     needed += [(it, _path(driven, it.part)) for it in driven.trial.all("move_torque")]
     weak: set[str] = set()
@@ -55,7 +61,9 @@ def check(
             continue
         weak.add(torque.part)
         joint = driven.robot.joints_by_name.get(torque.part)
-        if joint is None or not _is_explained(joint, specification):
+        if torque.part in of_plugins:
+            yield _of_plugin(torque, *of_plugins[torque.part])
+        elif joint is None or not _is_explained(joint, specification):
             unit = _unit(driven, torque.part)
             remedy = f": write {_ABOVE * torque.value:.3g} if its motor gives that" if path else ""
             yield finding(
@@ -65,6 +73,17 @@ def check(
                 f"{limit:.3g} {unit}{remedy}",
                 key="torque",
             )
+
+
+def _of_plugin(needed: Measurement, tag: str, torque: Located[float]) -> Finding:
+    """Report a wheel of a plugin that states its torque, or leaves it to the default."""
+    limit = f"<{tag}> is {torque.value:.3g} N·m" + ("" if torque.stated else " by default")
+    return finding(
+        torque,
+        f"joint {needed.part!r} needs {abs(needed.value):.3g} N·m, but the plugin's {limit}: "
+        f"write <{tag}>{_ABOVE * abs(needed.value):.3g}</{tag}> if its motor gives that",
+        key="torque",
+    )
 
 
 def _with_motor(robot: Robot) -> frozenset[str]:
@@ -126,6 +145,25 @@ def _unit(driven: SettledTrial, name: str) -> str:
 
 def _rover(effort: float, mark: str = "") -> str:
     return rover(limit=f"<limit><effort>{effort}</effort></limit>", wheel_mark=mark)
+
+
+def _classic(torque: str) -> dict[str, str]:
+    """Return a rover with low limits of its joints, and with the drive of Gazebo Classic."""
+    wheels, _, _ = _rover(0.1).partition("<plugin")
+    return {
+        "@profile": "gazebo-classic",
+        "model.sdf": f"""{wheels}
+<plugin filename="libgazebo_ros_diff_drive.so" name="drive">
+  <left_joint>fl_joint</left_joint><left_joint>rl_joint</left_joint>
+  <right_joint>fr_joint</right_joint><right_joint>rr_joint</right_joint>
+  <wheel_separation>0.4</wheel_separation><wheel_separation>0.4</wheel_separation>
+  <wheel_diameter>0.2</wheel_diameter><wheel_diameter>0.2</wheel_diameter>
+  {torque}
+</plugin>
+</model>
+</sdf>
+""",
+    }
 
 
 _REFERENCE = "# Acme Rover\n* Torque limit of each wheel: model.sdf, lines 20 and 30\n"
@@ -206,10 +244,12 @@ GOOD = [
     {"model.sdf": _rover(0.1), "specifications.md": _SHEET},
     _arm(6.0),
     _in_world("-0.3"),
+    _classic("<max_wheel_torque>20</max_wheel_torque>"),
 ]
 BAD = [
     _lid(_MOTOR, _MARK),
     _rover(0.1, _MARK),
+    _classic(f"<max_wheel_torque>0.1</max_wheel_torque>{_MARK}"),
     _arm(1.5, _MARK),
     _in_world("-9.8", _MARK),
     {"model.sdf": _rover(0.1, _MARK), "specifications.md": _REFERENCE},

@@ -35,6 +35,8 @@ class ClassicDrive(Record):
     diameter: str
     default_separation: float
     default_diameter: float
+    torque: str
+    default_torque: float
     each_pair: bool
     swapped_unless_false: str
 
@@ -86,6 +88,21 @@ def classic_joints(plugins: Iterable[Plugin]) -> Iterator[str]:
         drive = classic_drive(plugin)
         for pair in drive.joints(plugin) if drive is not None else ():
             yield from (name.value for name, _ in pair)
+
+
+def wheel_torques(robot: Robot) -> dict[str, tuple[str, Located[float]]]:
+    """Return the parameter and value of the greatest torque, N·m, by the joint that it turns.
+
+    Drive plugins of Gazebo Classic turn their joints with it, whatever effort the joints state.
+    """
+    torques: dict[str, tuple[str, Located[float]]] = {}
+    for plugin in robot.plugins:
+        if (drive := classic_drive(plugin)) is not None:
+            stated = list(_numbers(plugin, drive.torque))
+            torque = _value_at(stated, 0, drive.default_torque, plugin)
+            for name, _ in (named for pair in drive.joints(plugin) for named in pair):
+                torques.setdefault(plugin.scoped(name.value), (drive.torque, torque))
+    return torques
 
 
 def classic_drives(robot: Robot, reader: WheelReader) -> Iterator[WheelDrive]:

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Joint
 from checker.model.geometry.transform import Transform, Vector
-from checker.model.locomotion.classic import enforces_limits
+from checker.model.locomotion.classic import enforces_limits, wheel_torques
 from checker.model.locomotion.locomotion import (
     DriveKind,
     Locomotion,
@@ -337,11 +337,14 @@ def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
 
 
 def _efforts(robot: Robot, joints: Iterable[str]) -> dict[str, float]:
-    """Return the effort limits that joints state, N·m or N."""
+    """Return the effort limits of joints, N·m or N: those of their plugin, or that they state."""
     limits: dict[str, float] = {}
+    torques = wheel_torques(robot)
     for name in joints:
         joint = robot.joints_by_name.get(name)
         effort = joint.axes[0].effort.value if joint is not None and joint.axes else 0.0
+        if name in torques:
+            effort = torques[name][1].value
         if 0.0 < effort < math.inf:
             limits[name] = effort
     return limits
