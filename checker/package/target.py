@@ -61,10 +61,25 @@ def _of_loose_files(package: Package) -> str:
 
 def ros_2_package(package: Package) -> Package | None:
     """Return the package of ROS 2 that a package is, or that a model or file is in."""
+    return next((each for each in _holders(package) if usual_profile(each) == ROS_2), None)
+
+
+def is_of_catkin(package: Package) -> bool:
+    """Return whether a package, or that around a model or file, is built by catkin for ROS 1."""
+    return any(usual_profile(each) == ROS_1 and _needs_catkin(each) for each in _holders(package))
+
+
+def _holders(package: Package) -> list[Package]:
     manifest = None if package.only else package.xml("package.xml")
     around = None if isinstance(manifest, XmlDocument) else package_around(package)
-    holders = (around, package)
-    return next((each for each in holders if each and usual_profile(each) == ROS_2), None)
+    return [each for each in (around, package) if each is not None]
+
+
+def _needs_catkin(package: Package) -> bool:
+    manifest = package.xml("package.xml")
+    return isinstance(manifest, XmlDocument) and any(
+        child.text.value.strip() == "catkin" for child in manifest.root.all("buildtool_depend")
+    )
 
 
 def _usual_around(package: Package) -> str:

@@ -1,10 +1,12 @@
-"""A plugin or a parameter of ROS 1 in a ROS 2 package.
+"""A plugin or a parameter of ROS 1 in a ROS 2 package, or a parameter of ROS 2 in one of ROS 1.
 
 Gazebo Classic finds no library that only ROS 1 has: the drive or sensor is missing. A parameter of
 ROS 1 is ignored without a message, and the default counts: `<leftJoint>` leaves the drive without a
 wheel, `<robotNamespace>` leaves all topics in the root namespace.
 
-Models that are in no package of ROS 2 may be for ROS 1, so they are not judged.
+A plugin of ROS 1 ignores `<joint_name>` and `<update_rate>` of ROS 2 in the same way.
+
+Models that are in no package may be for either, so they are not judged.
 
 It is an error for a library, and for a parameter whose joint, link, wheel, topic or namespace no
 other parameter of the plugin names; otherwise a warning. So is a parameter in a robot that no
@@ -13,8 +15,8 @@ of ROS 2, or that no other file of the package names: all may read the default. 
 names the topic that ROS 2 publishes, the parameter is to be removed: a remapping would take that
 topic from its reader.
 
-Fix: write the library and the parameters of ROS 2, as the message names them, or remove the
-parameter where it says so.
+Fix: write the library and the parameters that the message names, or remove the parameter where it
+says so.
 Source: source code of gazebo_ros_pkgs for ROS 1 and ROS 2 (`gazebo_classic_ros2.json`).
 """
 
@@ -27,10 +29,10 @@ from msgspec.structs import replace
 from checker.base.resources import table
 from checker.model.components import Plugin
 from checker.model.plugin_host import PluginHost
-from checker.model.plugin_library import library_stem, plugin_libraries
+from checker.model.plugin_library import CLASSIC, library_stem, plugin_libraries
 from checker.package.dependencies import available_packages
 from checker.package.package import Package
-from checker.package.target import ros_2_package
+from checker.package.target import is_of_catkin, ros_2_package
 from checker.ros.spawned_files import SpawnedFiles
 from checker.ros.wiring.classic import classic_endpoints
 from checker.rule import (
@@ -60,11 +62,16 @@ _RATE, _RATE_OF_SENSOR = "update_rate", "<update_rate> of the <sensor>"
 def check(
     host: PluginHost, package: Package, spawned: SpawnedFiles | None, context: Context
 ) -> Findings:
-    """Report libraries and parameters that only the plugins of ROS 1 have."""
-    if not context.is_classic or ros_2_package(package) is None:
+    """Report libraries and parameters that only the plugins of the other ROS have."""
+    for_ros_1 = context.release == CLASSIC and not context.is_classic and is_of_catkin(package)
+    if not for_ros_1 and not (context.is_classic and ros_2_package(package) is not None):
         return
     if host.unread:
         yield unchecked(host.unread)
+    if for_ros_1:
+        for plugin in host.plugins:
+            yield from _parameters_of_ros_2(plugin)
+        return
     here, renamed = plugin_libraries(context.release), table("gazebo_classic_ros2")["ros_1"]
     built = available_packages(package).libraries()
     is_shown = host.robot is not None and spawned is not None and spawned.without(host.robot) != ""
@@ -83,6 +90,24 @@ def check(
             sent = _sent_topics(host, plugin) if lost else ()
             found = _parameters(plugin, lost, package, sent)
             yield from map(_slight, found) if is_shown else found
+
+
+def _parameters_of_ros_2(plugin: Plugin) -> Iterator[Finding]:
+    """Report parameters that only the plugin for ROS 2 reads, and not the one for ROS 1."""
+    library = library_stem(plugin.filename.value)
+    of_ros_2 = plugin_libraries(CLASSIC).get(library)
+    known = table("gazebo_classic_ros2")["ros_1"]["libraries"].get(library, {}).get("params", {})
+    read = (of_ros_2.parameters if of_ros_2 is not None else None) or frozenset()
+    names = {new: old for old, new in known.items() if new in read}
+    for element in plugin.element.children:
+        instead = names.get(element.tag)
+        if instead is not None and plugin.element.child(instead) is None:
+            yield finding(
+                element,
+                f"{library} ignores <{element.tag}>, a parameter of ROS 2: ROS 1 reads <{instead}>",
+                severity=None if _NAMES_PART.fullmatch(element.tag) else Severity.WARNING,
+                key=library,
+            )
 
 
 def _library(plugin: Plugin, known: Mapping[str, Any]) -> Finding:
@@ -179,6 +204,12 @@ def _drive(parameters: str) -> dict[str, object]:
     return {**_CLASSIC, "@fragment": text}
 
 
+def _of_ros_1(parameters: str) -> dict[str, object]:
+    library = "libgazebo_ros_joint_state_publisher.so"
+    text = f'<gazebo><plugin filename="{library}" name="p">{parameters}</plugin></gazebo>'
+    return {"@profile": "urdf", "@urdf": text}
+
+
 _MARK = "  <!-- ^ PLG012 -->"
 GOOD = [
     {
@@ -191,11 +222,15 @@ GOOD = [
         "@fragment": '<plugin filename="libgazebo_ros_laser.so" name="laser"/>',
         "CMakeLists.txt": "project(rover)\nadd_library(gazebo_ros_laser SHARED laser.cpp)\n",
     },
+    _of_ros_1("<jointName>shoulder</jointName><updateRate>50</updateRate>"),
+    _of_ros_1("<jointName>shoulder</jointName><joint_name>shoulder</joint_name>"),
 ]
 BAD = [
     _drive(f"<leftJoint>left</leftJoint>{_MARK}"),
     _drive(f"<robotNamespace>rover</robotNamespace>{_MARK}"),
     _drive(f"<updateRate>50</updateRate>{_MARK}"),
+    _of_ros_1(f"<joint_name>shoulder</joint_name>{_MARK}"),
+    _of_ros_1(f"<jointName>shoulder</jointName><update_rate>50</update_rate>{_MARK}"),
     _drive(f"\n<ros/><robotNamespace>rover</robotNamespace>{_MARK}\n"),
     {
         **_CLASSIC,
