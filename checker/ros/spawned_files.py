@@ -95,7 +95,8 @@ class SpawnedFiles(Record, eq=False, dict=True):
     def misplaced(self, robot: Robot) -> Sequence[Node]:
         """Return the nodes that spawn a robot into Gazebo Sim, though more files do into Classic.
 
-        Classic gets the same file with the same arguments. None where that is not known.
+        Classic gets the same file with the same arguments. None where that is not known, or a
+        launch file of another package is among them: its places are not those of this package.
         """
         file = robot.document.source.file
         own = [it for it in self._spawns or () if it.file == file]
@@ -103,7 +104,8 @@ class SpawnedFiles(Record, eq=False, dict=True):
         given = [it.load for it in classic]
         later = [it.node for it in own if not it.in_classic and it.load in given]
         most = len({it.node.file for it in classic}) > len({it.file for it in later})
-        return later if most else ()
+        mine = {id(node) for graph in self.own for node in graph.nodes_and_spawns}
+        return later if most and mine.issuperset(map(id, later)) else ()
 
     @cached_property
     def _spawns(self) -> tuple[_Spawn, ...] | None:

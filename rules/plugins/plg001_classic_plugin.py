@@ -7,7 +7,7 @@ In a URDF that no launch file spawns into Gazebo it is a warning: RViz, MoveIt a
 do not read it, and the file may be kept for Gazebo Classic. In one that launch files spawn into
 Gazebo Classic alone (`gazebo_ros`, `spawn_entity.py`) the plugins are right. Where there is no
 launch file at all, it stays an error. Where more launch files spawn it into Gazebo Classic than
-into Gazebo, and all its plugins are for Classic, those launch files are reported that do not.
+into Gazebo, and all its plugins are for Classic, those of the package that do not are reported.
 
 A xacro file may support several simulators by an argument: if its default chooses Gazebo Classic,
 the plugins for later releases are not expanded, and no plugin is reported.
@@ -193,6 +193,13 @@ _IN_CLASSIC = _SPAWN.format("gazebo_ros", "spawn_entity.py")
 _IN_GAZEBO = _SPAWN.format("ros_gz_sim", "create")
 
 
+_OF_OTHER = {
+    "../acme_lab/package.xml": "<package format='3'><name>acme_lab</name>"
+    "<export><build_type>ament_cmake</build_type></export></package>",
+    "../acme_lab/launch/c.launch.xml": _IN_GAZEBO,
+}
+
+
 def _rover(drive: str = _DRIVE, **launched: str) -> dict[str, object]:
     files = {f"launch/{name}.launch.xml": text for name, text in launched.items()}
     return {
@@ -226,6 +233,7 @@ BAD = [
     {"@profile": "ros2", "@urdf": f"<gazebo>{_DRIVE}</gazebo>  <!-- ^ PLG001 -->"},
     _rover(a=_IN_CLASSIC, b=_IN_CLASSIC, c=_HERE),
     _rover(a=_IN_CLASSIC, b=_IN_GAZEBO, drive=_MARKED),
+    {**_rover(a=_IN_CLASSIC, b=_IN_CLASSIC, drive=_MARKED), **_OF_OTHER},
     _rover(
         a=_IN_CLASSIC,
         b=_IN_CLASSIC,
