@@ -137,6 +137,15 @@ ARM = """
 <joint name="j" type="revolute"><parent>base_link</parent><child>arm</child></joint>
 """
 
+COARSE = """<link name="ball"><inertial><mass>1</mass>
+<inertia><ixx>0.0001</ixx><iyy>0.0001</iyy><izz>0.0003</izz></inertia></inertial>
+<sensor name="s" type="imu"/></link>
+"""
+"""Moments that rounding to four decimals makes impossible."""
+FEW = """<sensor name="vlp16" type="gpu_lidar"><update_rate>10</update_rate><lidar><scan>
+<horizontal><samples>440</samples><min_angle>-3.14159</min_angle><max_angle>3.14159</max_angle>
+</horizontal><vertical><samples>16</samples></vertical></scan></lidar></sensor>
+"""
 CONTROLLED = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
 <xacro:arg name="gazebo" default="false"/>
 <link name="base_link"/>
@@ -444,7 +453,11 @@ def test_severity_depends_on_the_case(
 
 @pytest.mark.parametrize(
     ("rule", "fragment", "classic", "later"),
-    [("SDF009", HINGE, "info", "warning"), ("SDF005", UNCOLOURED, "warning", "error")],
+    [
+        ("SDF009", HINGE, "info", "warning"),
+        ("SDF005", UNCOLOURED, "warning", "error"),
+        ("INE002", COARSE, "warning", "error"),
+    ],
 )
 def test_classic_neither_renames_nor_refuses(
     rule: str, fragment: str, classic: str, later: str, tmp_path: Path
@@ -454,6 +467,17 @@ def test_classic_neither_renames_nor_refuses(
         settings = Settings(profile=profile, profile_chosen=True, select=(rule,))
         (report,) = check_package(package, settings).packages
         assert [found.severity.value for found in report.findings] == [severity]
+
+
+@pytest.mark.parametrize(
+    ("profile", "severity"), [("subt", "warning"), ("gazebo-fortress", "info")]
+)
+def test_fewer_samples_than_the_lidar_has_save_time(
+    profile: str, severity: str, tmp_path: Path
+) -> None:
+    settings = Settings(profile=profile, profile_chosen=True, select=("SEN004",))
+    (report,) = check_package(write_example(FEW, tmp_path), settings).packages
+    assert [found.severity.value for found in report.findings] == [severity]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,8 @@ Physics engines divide by these values: the robot flies apart, drifts off, or do
 of any two principal moments must be at least the third; a plate reaches equality. One number covers
 all conditions: the smallest eigenvalue of the pseudo-inertia, the matrix of the second moments of
 mass, must not be negative. Gazebo Classic takes what differs from a possible inertia by no more
-than half of the last digits written: that is not reported.
+than half of the last digits written: that is not reported, and a warning for numbers of less than
+three digits, such as 0.0001.
 
 Fix: take mass, centre of mass and inertia from CAD, all in kg and m and about the centre of mass.
 Look for a moment that is too large by a factor of 1000, or a lost sign; where the products of
@@ -33,6 +34,8 @@ _OF_A_BODY = 1e-4
 """kg·m²: a link without mass but with a larger moment is not a mere frame."""
 _ROUNDED = 3
 """Digits from which a number is taken as rounded; one of fewer is an estimate."""
+_DECIMALS = 4
+"""Decimals from which a number of fewer digits may be rounded."""
 
 
 @rule("INE002", "impossible-inertia", Severity.ERROR, Concern.ROBOT)
@@ -75,9 +78,11 @@ def check(
         # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
         merged = merges and inertia.piece_eigenvalue >= -share
         scenery = classic and robot.is_prop and not merges
-        possible = Severity.WARNING if merged or scenery else Severity.ERROR
-        if context.release in ("", "classic") and _is_rounded(inertia, inertial):
+        lenient = context.release in ("", "classic")
+        if lenient and _is_rounded(inertia, inertial):
             continue
+        coarse = lenient and _is_rounded(inertia, inertial, coarsely=True)
+        possible = Severity.WARNING if merged or scenery or coarse else Severity.ERROR
         yield from _moments(robot, inertia, inertial, possible, share)
 
 
@@ -105,19 +110,22 @@ def _mass(inertia: LinkInertia, inertial: Inertial, readable: Severity) -> Itera
         )
 
 
-def _is_rounded(inertia: LinkInertia, inertial: Inertial) -> bool:
+def _is_rounded(inertia: LinkInertia, inertial: Inertial, *, coarsely: bool = False) -> bool:
     """Return whether the moments fit together but for half of the last digit of each."""
     first, second, third = inertia.principal
-    allowed = sum(_half_of_last_digit(inertial.moments[number]) for number in (0, 3, 5))
+    moments = (inertial.moments[number] for number in (0, 3, 5))
+    allowed = sum(_half_of_last_digit(moment, coarsely=coarsely) for moment in moments)
     return first >= 0.0 and third - first - second <= allowed
 
 
-def _half_of_last_digit(moment: Located[float]) -> float:
+def _half_of_last_digit(moment: Located[float], *, coarsely: bool) -> float:
+    text = moment.span.text.strip("\"' \t\r\n")
     try:
-        _, digits, exponent = Decimal(moment.span.text.strip("\"' \t\r\n")).as_tuple()
+        _, digits, exponent = Decimal(text).as_tuple()
     except InvalidOperation:
         return 0.0
-    is_rounded = len(digits) >= _ROUNDED and isinstance(exponent, int)
+    plain = coarsely and len(text.partition(".")[2]) >= _DECIMALS and text[-1:].isdecimal()
+    is_rounded = isinstance(exponent, int) and (len(digits) >= _ROUNDED or plain)
     return float(Decimal((0, (5,), int(exponent) - 1))) if is_rounded else 0.0
 
 

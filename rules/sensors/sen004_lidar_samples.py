@@ -4,7 +4,8 @@ The model sees more or fewer points than the real robot, and too many slow down 
 all robots. A VLP-16 measures 1800 to 1875 points per row at 10 Hz and 900 at 20 Hz. The number
 10000 comes from an old template, together with a scan resolution of 0.1, and was copied into many
 robots. A lidar that scans only part of a turn may have a proportional number of samples. If the
-device's figure was never compared with a datasheet, the finding is an info.
+device's figure was never compared with a datasheet, the finding is an info. So are fewer samples
+than the device's, outside the challenge: they save time.
 
 Fix: write the number of samples that the device measures at the model's `<update_rate>`.
 Source: reviews of SubT models; the seed tutorial "Simulating the Ouster OS-1"; `devices.json` has
@@ -19,12 +20,17 @@ from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Lidar
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 
 @rule("SEN004", "lidar-samples", Severity.WARNING, Concern.INTERFACE)
 def check(
-    robot: Robot, devices: SensorDevices, *, copied: int = 10_000, tolerance: float = 0.02
+    robot: Robot,
+    devices: SensorDevices,
+    context: Context,
+    *,
+    copied: int = 10_000,
+    tolerance: float = 0.02,
 ) -> Findings:
     """Report rows of far too many samples, or of another number than the device has.
 
@@ -46,7 +52,9 @@ def check(
         samples = lidar.horizontal.samples
         too_many = samples.value >= copied
         if too_many or (expected and not _fits(samples.value, expected, tolerance)):
-            yield _finding(sensor, lidar, known, expected, too_many)
+            fewer = not context.is_subt and samples.value < min(expected, default=0.0)
+            mild = fewer or (known is not None and _is_from_memory(known.device, too_many=too_many))
+            yield _finding(sensor, lidar, known, expected, Severity.INFO if mild else None)
 
 
 def _rays(sensor: Sensor, lidar: Lidar, device: Device) -> Iterator[Finding]:
@@ -92,12 +100,16 @@ def _fits(samples: float, expected: list[float], tolerance: float) -> bool:
     return any(abs(samples - number) <= max(1.0, tolerance * number) for number in expected)
 
 
+def _is_from_memory(device: Device, *, too_many: bool) -> bool:
+    return device.is_from_memory("samples_by_rate") and not too_many
+
+
 def _finding(
     sensor: Sensor,
     lidar: Lidar,
     known: SensorDevice | None,
     expected: list[float],
-    too_many: bool,
+    severity: Severity | None,
 ) -> Finding:
     samples, rate = lidar.horizontal.samples, sensor.update_rate.value
     message = f"lidar {sensor.name.value!r} has {samples.value:g} samples per row"
@@ -108,11 +120,10 @@ def _finding(
             f"{message}, a number copied from an old template: expected the number of the device",
             key="copied",
         )
-    from_memory = known.device.is_from_memory("samples_by_rate") and not too_many
     return finding(
         samples,
         f"{message}, expected {or_list(expected)} ({known.device.name})",
-        severity=Severity.INFO if from_memory else None,
+        severity=severity,
         key=f"{known.device.id} {samples.value:g} {rate:g}",
         related=[(known.words, "names the device")],
     )
