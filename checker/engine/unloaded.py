@@ -13,7 +13,7 @@ from checker.rule import Finding, Unchecked
 Said = Finding | Unchecked
 
 
-_OF_SIMULATION = ("INE", "TRI")
+_OF_SIMULATION = ("INE", "SEN", "TRI")
 """The groups of rules about what a simulator alone reads, and what it makes of it."""
 
 

@@ -55,6 +55,7 @@ _NEAR_EARTH = 0.05
 _BALANCING = re.compile(r"balanc|segway|pendulum", re.IGNORECASE)
 
 OTHERS_SIMULATED = "Gazebo gets another description"
+UNDRIVEN = "no launch file that loads it starts a simulator, and nothing drives it in one"
 """Why no simulator gets a robot, beside one that a simulator gets."""
 
 
@@ -139,9 +140,11 @@ class Robot(Part, dict=True):
     def never_simulated(self) -> str:
         """Why no simulator is meant to get it, as a clause; empty if one may be.
 
-        Gazebo gets another description, or its ros2_control is that of hardware alone.
+        Gazebo gets another description, nothing would drive it there, or its ros2_control is that
+        of hardware alone.
         """
-        certain = self.shown_only == OTHERS_SIMULATED or self.element.child("ros2_control")
+        stated = self.shown_only in (OTHERS_SIMULATED, UNDRIVEN)
+        certain = stated or self.element.child("ros2_control")
         return self.shown_only if certain else ""
 
     @property

@@ -10,7 +10,7 @@ from checker.formats.xacro.files import local_path
 from checker.launch.ros2.descriptions import loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph, Node, Process
 from checker.launch.ros2.package_launch import launches_naming
-from checker.model.robot import OTHERS_SIMULATED
+from checker.model.robot import OTHERS_SIMULATED, UNDRIVEN
 from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
@@ -40,7 +40,8 @@ def shown_only(
     """Return why no simulator gets a description, as a clause; empty if one may.
 
     A description with an element for Gazebo is for a simulator, whatever starts it, unless a
-    simulator is given another one. So may be a package whose launch files are in another one. In a
+    simulator is given another one, or the launch files that load it start none, and nothing would
+    drive its wheels there. So may be a package whose launch files are in another one. In a
     folder without package.xml and without launch files it takes more than friction or colours: a
     plugin or a sensor.
 
@@ -58,7 +59,8 @@ def shown_only(
         return OTHERS_SIMULATED
     loose = not launch and not package.exists("package.xml")
     if _is_for_gazebo(root, loose=loose):
-        return ""
+        idle = texts and not _is_driven(root) and not _starts_simulator(launch.values(), name)
+        return UNDRIVEN if idle else ""
     if _is_for_rviz(package, path):
         return "a comment says that it is for RViz"
     return _unstarted(texts or [*launch.values()], name, loose=loose) or (
@@ -69,6 +71,14 @@ def shown_only(
 def _is_for_gazebo(root: Element, *, loose: bool) -> bool:
     tags = (child.tag for tag in root.all("gazebo") for child in tag.children)
     return not _SIMULATED.isdisjoint(tags) if loose else root.child("gazebo") is not None
+
+
+def _is_driven(root: Element) -> bool:
+    """Return whether a plugin may move the wheels of a robot in Gazebo, or it has none."""
+    turning = (joint.get("type") == "continuous" for joint in root.all("joint"))
+    whole = (it for it in root.all("gazebo") if it.child("plugin") and not it.get("reference"))
+    moving = (root.child(tag) for tag in ("ros2_control", "transmission"))
+    return not any(turning) or any(whole) or any(moving)
 
 
 def _unstarted(texts: Sequence[str], name: str, *, loose: bool) -> str:

@@ -104,7 +104,25 @@ def test_a_weak_arm_that_no_simulator_gets_is_an_info(
     assert ("starts a simulator" in found.message) is (severity is Severity.INFO)
 
 
-@pytest.mark.parametrize(("group", "counts"), [("INE", True), ("TRI", True), ("URD", False)])
+_SCANNER = """<link name="base"/><link name="wheel"/>
+<joint name="axle" type="continuous"><parent link="base"/><child link="wheel"/></joint>
+<gazebo reference="base"><sensor name="scan" type="ray"><ray><scan><horizontal>
+<samples>9</samples><min_angle>1</min_angle><max_angle>-1</max_angle>
+</horizontal></scan></ray></sensor></gazebo>"""
+_DRIVE = '<gazebo><plugin name="drive" filename="libgazebo_ros_diff_drive.so"/></gazebo>'
+
+
+@pytest.mark.parametrize(("drive", "severity"), [("", Severity.INFO), (_DRIVE, Severity.WARNING)])
+def test_a_sensor_counts_less_where_no_simulator_would_drive_its_robot(
+    drive: str, severity: Severity, tmp_path: Path
+) -> None:
+    report = _check(tmp_path, _SCANNER + drive, rule="SEN003")
+    (found,) = (it for it in report.findings if it.rule == "SEN003")
+    assert found.severity is severity
+    assert ("nothing drives it" in found.message) is not bool(drive)
+
+
+@pytest.mark.parametrize(("group", "counts"), [("INE", True), ("SEN", True), ("URD", False)])
 def test_what_a_simulator_alone_shows_counts_less(group: str, counts: bool) -> None:
     robot = SimpleNamespace(never_simulated="no launch file starts a simulator")
     assert bool(unloaded_in({"driven": SimpleNamespace(robot=robot)}, group)) is counts
