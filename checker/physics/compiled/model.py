@@ -30,6 +30,7 @@ class Compiled(Record):
             `acceleration`; else empty.
         time: Seconds that were simulated.
         fastest: Greatest velocity of a joint, rad/s or m/s.
+        own_hits: Rangefinders whose beam always meets the robot itself.
     """
 
     refusals: tuple[Refusal, ...] = ()
@@ -47,6 +48,7 @@ class Compiled(Record):
     trouble: str = ""
     time: float = 0.0
     fastest: float = 0.0
+    own_hits: tuple[OwnHit, ...] = ()
 
 
 class Refusal(Record):
@@ -133,6 +135,23 @@ class Contact(Record):
     """Two shapes of bodies that touch; a negative distance (metres) is how deep they overlap."""
 
     bodies: tuple[int, int]
+    distance: float
+
+
+class OwnHit(Record):
+    """A rangefinder whose beam meets a body that moves with its own.
+
+    Attributes:
+        line: The line of the sensor; 0 if it is not known.
+        body: The number of the body with its site.
+        hit: The number of the body that the beam meets.
+        distance: Metres.
+    """
+
+    line: int
+    name: str
+    body: int
+    hit: int
     distance: float
 
 

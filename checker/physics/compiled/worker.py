@@ -10,6 +10,7 @@ from typing import Any
 from checker.base.sandbox.files import NO_FILES, Files
 from checker.physics.compiled.first_second import first_second
 from checker.physics.compiled.parts import model_parts, stated_line
+from checker.physics.compiled.rangefinders import own_hits
 
 _LEAVES_OUT = re.compile(
     r"unrecognized attribute|bad format in attribute|invalid keyword|unknown default class"
@@ -70,6 +71,7 @@ def _compiled(item: Mapping[str, Any], files: Files) -> dict[str, Any]:
                 **lacks,
                 **model_parts(spec, model),
                 **first_second(model),
+                "own_hits": own_hits(spec, model, item["absent"]),
             }
     return {"refusals": refusals}
 
