@@ -557,6 +557,26 @@ def test_a_prop_needs_less_than_a_robot(joint: str, severities: set[str], tmp_pa
 
 
 @pytest.mark.parametrize(
+    ("version", "static", "severity"),
+    [("1.6", "true", "warning"), ("1.6", "false", "error"), ("1.7", "true", "error")],
+)
+def test_a_joint_of_nothing_that_moves_may_be_dropped(
+    version: str, static: str, severity: str, tmp_path: Path
+) -> None:
+    (tmp_path / "sign.sdf").write_text(
+        f"""<sdf version="{version}"><model name="sign"><static>{static}</static>
+<link name="plate"/>
+<joint name="j" type="fixed"><parent>pole</parent><child>plate</child></joint>
+</model></sdf>
+""",
+        "utf-8",
+    )
+    settings = Settings(profile="sdf", profile_chosen=True, select=("KIN001",))
+    (report,) = check_package(tmp_path / "sign.sdf", settings).packages
+    assert [str(finding.severity) for finding in report.findings] == [severity]
+
+
+@pytest.mark.parametrize(
     ("wheels", "severities"),
     [(GRIP, {"info"}), (SKIDDING, {"warning"}), (GRIP.replace("150", "0"), {"warning"})],
 )

@@ -1,6 +1,8 @@
 """A joint whose parent or child does not exist.
 
-The simulator refuses the whole model, or drops the joint and the part falls off.
+The simulator refuses the whole model, or drops the joint and the part falls off. In a static model
+nothing falls: for Gazebo Classic, which only drops the joint, it is a warning, and so it is in a
+file of SDF 1.6 or older where the profile names no Gazebo release.
 
 No accepted package that we checked has this fault.
 
@@ -9,15 +11,17 @@ Source: SDFormat specification, joint/parent and joint/child.
 """
 
 from checker.base.words import Suggestions
+from checker.formats.sdf.document import parse_version
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, misspelt, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, misspelt, rule, unchecked
 from checker.source.text import Located
 
 
 @rule("KIN001", "unknown-joint-link", Severity.ERROR, Concern.ROBOT)
-def check(robot: Robot) -> Findings:
+def check(robot: Robot, context: Context) -> Findings:
     """Report joints whose parent or child is missing or does not exist."""
+    severity = Severity.WARNING if _is_static_in_classic(robot, context.release) else None
     for uri in robot.unresolved_includes:
         yield unchecked(f"{uri.value or 'an include without <uri>'} is included, but not available")
     names = robot.attachable_names
@@ -27,7 +31,17 @@ def check(robot: Robot) -> Findings:
             if _exists(robot, joint, role, end) or robot.may_be_included(end.value):
                 continue
             phrase = f"{role} {end.value!r}, which does not exist" if end.value else f"no {role}"
-            yield misspelt(end, f"joint {joint.name.value!r} has {phrase}", suggestions)
+            message = f"joint {joint.name.value!r} has {phrase}"
+            yield misspelt(end, message, suggestions, severity=severity)
+
+
+def _is_static_in_classic(robot: Robot, release: str) -> bool:
+    # From SDF 1.7 on libsdformat resolves the ends of joints itself, and refuses the model.
+    is_old = (parse_version(robot.version) or _RESOLVING) < _RESOLVING
+    return robot.is_static and (release == "classic" or (not release and is_old))
+
+
+_RESOLVING = (1, 7)
 
 
 def _exists(robot: Robot, joint: Joint, role: str, end: Located[str]) -> bool:
