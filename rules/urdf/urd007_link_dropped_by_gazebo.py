@@ -2,8 +2,9 @@
 
 Gazebo drops a link without `<inertial>`, or with a mass of zero, with its sensors and all links
 below it, unless a fixed joint merges it into a link that has a mass. Frames of sensors are merged,
-so they need no inertial. In a URDF without a `<gazebo>` element this is a warning: other tools keep
-such links. It is an info if no launch file of the workspace gives the URDF to a simulator.
+so they need no inertial. URD012 reports an `<inertial>` without `<mass>`. In a URDF without a
+`<gazebo>` element this is a warning: other tools keep such links. It is an info if no launch file
+of the workspace gives the URDF to a simulator.
 
 Fix: give each link that moves an `<inertial>`, a `<collision>` and a `<visual>`.
 Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children links ignored".
@@ -14,6 +15,7 @@ from collections.abc import Iterator
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.fixed_joints import Lumping
 from checker.model.components import Link
+from checker.model.robot import Robot
 from checker.model.values import parse_number
 from checker.package.package import Package
 from checker.physics.mass.even_inertia import inertial_fix
@@ -42,8 +44,8 @@ def check(
     for name, links in Lumping(description).groups.items():
         if name == _NO_LINK or name not in robot.links_by_name:
             continue
-        if any(map(_has_unread_mass, links)):
-            continue  # URD012 says what is wrong with it.
+        if any(map(_has_unread_mass, links)) or _has_second_parents(robot, links):
+            continue  # URD012 or KIN002 says what is wrong with it.
         if not any(link.mass for link in links):
             yield _left_out(description, robot.links_by_name[name], links, severity, grave)
         elif robot.mass > 0 and sum(link.mass for link in links) >= share * robot.mass:
@@ -51,8 +53,16 @@ def check(
 
 
 def _has_unread_mass(link: Link) -> bool:
-    masses = (mass.get("value") for mass in link.element.descendants("mass"))
-    return any(text is None or parse_number(text) is None for text in masses)
+    masses = [mass.get("value") for mass in link.element.descendants("mass")]
+    is_left_out = link.element.child("inertial") is not None and not masses
+    return is_left_out or any(text is None or parse_number(text) is None for text in masses)
+
+
+def _has_second_parents(robot: Robot, links: list[Link]) -> bool:
+    """Return whether a link below has two joints above it, so that it may be merged elsewhere."""
+    names = {link.name.value for link in links}
+    above = robot.tree.ties_above.values()
+    return any(len(ties) > 1 and any(tie.parent in names for tie in ties) for ties in above)
 
 
 def _left_out(
@@ -123,11 +133,16 @@ def _robot(base: str, arm: str, kind: str = "revolute", more: str = "") -> dict[
 
 _KEPT = '<gazebo reference="j"><preserveFixedJoint>true</preserveFixedJoint></gazebo>'
 _SENSOR = '<gazebo reference="arm"><sensor name="camera" type="camera"/></gazebo>'
+_SECOND_PARENT = f"""<link name="hand">{_FULL}</link>
+<joint name="k" type="fixed"><parent link="base_link"/><child link="hand"/></joint>
+<joint name="l" type="fixed"><parent link="arm"/><child link="hand"/></joint>"""
 GOOD = [
     _robot(_FULL, _FULL),
     _robot(_FULL, _FULL.replace('mass value="1"', 'mass value="2*0.5"')),
     _robot(_FULL, "", "fixed", _SENSOR),
     _robot("", _FULL, "fixed"),
+    _robot(_FULL, _SHAPES + "<inertial/>"),
+    _robot(_FULL, "", more=_SECOND_PARENT),
     {"urdf/robot_from_sdf.xacro": '<robot name="r"><link name="a"/></robot>'},
 ]
 BAD = [
