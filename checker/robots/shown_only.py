@@ -41,9 +41,9 @@ def shown_only(
 
     A description with an element for Gazebo is for a simulator, whatever starts it, unless a
     simulator is given another one, or the launch files that load it start none, and nothing would
-    drive its wheels there. So may be a package whose launch files are in another one. In a
-    folder without package.xml and without launch files it takes more than friction or colours: a
-    plugin or a sensor.
+    drive its wheels there. So may be a package whose launch files are in another one. In a folder
+    without package.xml and launch files, of which no other launch file names the description, it
+    takes more than friction or colours: a plugin or a sensor.
 
     Args:
         package: The package being checked.
@@ -57,13 +57,16 @@ def shown_only(
     texts = _starting(launch, posixpath.basename(path))
     if texts and not _starts_simulator(texts, name) and _spawns_another(launch.values(), name):
         return OTHERS_SIMULATED
-    loose = not launch and not package.exists("package.xml")
+    loose = not (package.exists("package.xml") or package.launch_texts)
+    loose = loose and not package.workspace.launches_file(posixpath.basename(path))
     if _is_for_gazebo(root, loose=loose):
         idle = texts and not _is_driven(root) and not _starts_simulator(launch.values(), name)
         return UNDRIVEN if idle else ""
     if _is_for_rviz(package, path):
         return "a comment says that it is for RViz"
-    return _unstarted(texts or [*launch.values()], name, loose=loose) or (
+    if loose:
+        return "no launch file of the workspace loads it"
+    return _unstarted(texts or [*launch.values()], name) or (
         OTHERS_SIMULATED if _get_others(package, own, path) else ""
     )
 
@@ -81,11 +84,9 @@ def _is_driven(root: Element) -> bool:
     return not any(turning) or any(whole) or any(moving)
 
 
-def _unstarted(texts: Sequence[str], name: str, *, loose: bool) -> str:
+def _unstarted(texts: Sequence[str], name: str) -> str:
     """Return the clause that launch files start no simulator; else empty."""
-    if not texts:
-        return "no launch file of the workspace starts anything" if loose else ""
-    if _starts_simulator(texts, name):
+    if not texts or _starts_simulator(texts, name):
         return ""
     return "no launch file that loads it starts a simulator"
 

@@ -126,3 +126,22 @@ def test_without_launch_files_what_only_gazebo_reads_is_an_info(
     settings = Settings(select=("URD006", "URD007", "URD008", "GEO002"))
     report = check_package(folder, settings).packages[0]
     assert {found.severity for found in report.findings} == severities
+
+
+@pytest.mark.parametrize(
+    ("named", "severity"), [("other.urdf", Severity.INFO), ("sketch.urdf", Severity.WARNING)]
+)
+def test_what_no_launch_file_names_in_a_loose_folder_is_an_info(
+    tmp_path: Path, named: str, severity: Severity
+) -> None:
+    launch = f"DESCRIPTION = '{named}'\nWORLD = 'gazebo_ros'\n"
+    for path, text in {
+        f"{NAME}/package.xml": PACKAGE_XML,
+        f"{NAME}/launch/sim.launch.py": launch,
+        "sketches/sketch.urdf": f'<robot name="sketch">{_SHOWN}</robot>',
+    }.items():
+        (tmp_path / path).parent.mkdir(exist_ok=True, parents=True)
+        (tmp_path / path).write_text(text)
+    report = check_package(tmp_path, Settings(select=("URD007",)))
+    found = [found for package in report.packages for found in package.findings]
+    assert [it.severity for it in found] == [severity]
