@@ -216,7 +216,7 @@ def _run_isolated(
         options = options_of(rule, judge.settings)
         with allowance.piece():
             said = [
-                (unloaded_in(each, rule.group) or unstarted, [*rule.check(**each, **options)])
+                (unloaded_in(each, rule.id) or unstarted, [*rule.check(**each, **options)])
                 for each in arguments
             ]
             return [*less_of_unloaded(said, rule.severity)]

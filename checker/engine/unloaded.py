@@ -13,21 +13,21 @@ from checker.rule import Finding, Unchecked
 Said = Finding | Unchecked
 
 
-_OF_SIMULATION = ("INE", "SEN", "TRI")
-"""The groups of rules about what a simulator alone reads, and what it makes of it."""
+_OF_SIMULATION = ("GEO002", "GEO003", "GEO009", "GEO010", "GEO011", "INE", "KIN006", "SEN", "TRI")
+"""Rules, and groups of rules, about what a simulator alone reads, and what it makes of it."""
 
 
-def unloaded_in(arguments: Mapping[str, Any], group: str) -> str:
+def unloaded_in(arguments: Mapping[str, Any], rule: str) -> str:
     """Return the clause that nothing reads what a rule looks at; else empty.
 
     Args:
         arguments: What the rule is given: robots, or parts with a robot.
-        group: The group of the rule.
+        rule: The id of the rule.
     """
     for value in arguments.values():
         for holder in (value, getattr(value, "robot", None)):
             clause = getattr(holder, "unloaded", "")
-            if group in _OF_SIMULATION:
+            if rule.startswith(_OF_SIMULATION):
                 clause = clause or getattr(holder, "never_simulated", "")
             if clause:
                 return str(clause)

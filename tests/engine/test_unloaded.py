@@ -122,10 +122,13 @@ def test_a_sensor_counts_less_where_no_simulator_would_drive_its_robot(
     assert ("nothing drives it" in found.message) is not bool(drive)
 
 
-@pytest.mark.parametrize(("group", "counts"), [("INE", True), ("SEN", True), ("URD", False)])
-def test_what_a_simulator_alone_shows_counts_less(group: str, counts: bool) -> None:
+@pytest.mark.parametrize(
+    ("rule", "counts"),
+    [("INE002", True), ("SEN003", True), ("GEO010", True), ("GEO012", False), ("URD007", False)],
+)
+def test_what_a_simulator_alone_shows_counts_less(rule: str, counts: bool) -> None:
     robot = SimpleNamespace(never_simulated="no launch file starts a simulator")
-    assert bool(unloaded_in({"driven": SimpleNamespace(robot=robot)}, group)) is counts
+    assert bool(unloaded_in({"driven": SimpleNamespace(robot=robot)}, rule)) is counts
 
 
 def test_what_rviz_alone_gets_has_warnings(tmp_path: Path) -> None:
