@@ -38,9 +38,13 @@ _SDF = (("ode", "mu", "mu2"), ("bullet", "friction", "friction2"))
 
 
 class FrictionReader:
-    """Reads friction: of SDF in `<surface>`, of URDF in `<gazebo reference="link">`."""
+    """Reads friction: of SDF in `<surface>`, of URDF in `<gazebo reference="link">`.
+
+    Readers of URDF ignore a `<surface>` in the link itself.
+    """
 
     def __init__(self, robot: Robot) -> None:
+        self.is_urdf = robot.conventions.is_urdf
         self.extensions: dict[str, list[Element]] = {}
         tag = robot.conventions.extension_tag
         for element in robot.element.all(tag) if tag else ():
@@ -49,7 +53,8 @@ class FrictionReader:
     def friction_of(self, link: Link, collision: Collision) -> Friction:
         """Return what is stated for a collision; the first engine that states anything counts."""
         extensions = self.extensions.get(link.scoped_name, ())
-        for holder in (collision.element, *(it.child("collision") for it in extensions)):
+        own = () if self.is_urdf else (collision.element,)
+        for holder in (*own, *(it.child("collision") for it in extensions)):
             if holder is not None and (stated := holder.child("surface", "friction")):
                 return _of_surface(stated)
         for element in extensions:

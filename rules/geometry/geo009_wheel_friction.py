@@ -199,6 +199,32 @@ def _track(friction: str) -> str:
 """
 
 
+def _wagon(in_link: str, tags: str, mark: str = "") -> dict[str, str]:
+    """Return a URDF robot on two wheels, of which one has `in_link` in its collision."""
+    links = "".join(
+        f"""<link name="{side}">
+<collision name="c">{extra}
+<geometry><sphere radius="0.1"/></geometry>
+</collision>
+</link>
+<joint name="{side}_axle" type="continuous">
+<parent link="upper_arm"/><child link="{side}"/><axis xyz="0 1 0"/>
+</joint>
+"""
+        for side, extra in (("left", f"{mark}{in_link}"), ("right", ""))
+    )
+    plugin = """<gazebo><plugin filename="libgazebo_ros_diff_drive.so" name="drive">
+<leftJoint>left_axle</leftJoint><rightJoint>right_axle</rightJoint>
+</plugin></gazebo>
+"""
+    return {"@urdf": f"{links}{plugin}{tags}"}
+
+
+def _tag(side: str) -> str:
+    return f'<gazebo reference="{side}"><mu1>1</mu1><mu2>1</mu2></gazebo>\n'
+
+
+_SLICK = "<surface><friction><ode><mu>0</mu></ode></friction></surface>"
 _ONE = "<mu>1</mu><mu2>1</mu2>"
 _BALL = _wheel("ball_wheel", "<mu>0</mu><mu2>0</mu2>").replace('"revolute"', '"fixed"')
 _MARK = "  <!-- ^ GEO009 -->"
@@ -209,6 +235,7 @@ GOOD = [
     _rover("", "", "TrackedVehicle"),
     _track("<mu>1</mu><mu2>150</mu2>"),
     _rover(_ONE, _ONE) + _BALL,
+    _wagon(_SLICK, _tag("left") + _tag("right")),
 ]
 BAD = [
     _rover(_ONE, f"<mu>0</mu>{_MARK}"),
@@ -217,4 +244,5 @@ BAD = [
     _rover(_ONE, "", mark=_MARK),
     _rover(_ONE, _ONE) + _wheel("ball_wheel", "", _MARK).replace('"revolute"', '"fixed"'),
     _track(f"<mu>150</mu>{_MARK}"),
+    _wagon(_SLICK.replace(">0<", ">1<"), _tag("right"), _MARK),
 ]
