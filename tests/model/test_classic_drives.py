@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from checker.model.locomotion.locomotion import DriveKind, Side, WheelDrive
@@ -99,6 +101,34 @@ class TestDiffDriveOfRos1:
 
         assert (drive.wheel_separation.value, drive.wheel_separation.stated) == (0.34, False)
         assert (drive.wheel_radius.value, drive.wheel_radius.stated) == (0.075, False)
+
+    def test_speeds_its_wheels_up_as_it_states(self) -> None:
+        (drive,) = drives(DIFF, ROS_1 + "<wheelAcceleration>0.6</wheelAcceleration>")
+
+        assert greatest_accelerations(drive) == pytest.approx((0.6, 2.4))
+
+    @pytest.mark.parametrize("stated", ["", "<wheelAcceleration>0</wheelAcceleration>"])
+    def test_speeds_its_wheels_up_at_once_without(self, stated: str) -> None:
+        (drive,) = drives(DIFF, ROS_1 + stated)
+
+        assert greatest_accelerations(drive) == (math.inf, math.inf)
+
+
+def test_diff_drive_of_ros_2_speeds_its_wheels_up_as_it_states() -> None:
+    stated = "<max_wheel_acceleration>0.6</max_wheel_acceleration>"
+    front, rear = drives(DIFF, ROS_2 + stated)
+
+    assert greatest_accelerations(front) == pytest.approx((0.6, 2.4))
+    assert greatest_accelerations(rear)[0] == 0.6
+
+
+def greatest_accelerations(drive: WheelDrive) -> tuple[float, float]:
+    """Return the linear (m/s²) and the angular one (rad/s²)."""
+    linear, angular = drive.linear.max_acceleration, drive.angular.max_acceleration
+    return (
+        linear.value if linear is not None else math.inf,
+        angular.value if angular is not None else math.inf,
+    )
 
 
 def test_diff_drive_of_ros_2_has_a_separation_and_a_diameter_for_each_pair() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from checker.model.robot import Robot
+from checker.physics.trial.course import DRIVE
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.trial import Trial
 from tests.model.robots import urdf
@@ -81,6 +82,23 @@ def test_the_old_diff_drive_turns_the_other_way() -> None:
 
     assert turn < -0.05
     assert corrected > 0.05
+
+
+@pytest.mark.parametrize(
+    ("stated", "rate"), [("", 1.0), ("<wheelAcceleration>0.4</wheelAcceleration>", 0.4)]
+)
+def test_wheels_need_the_torque_that_speeds_the_robot_up(stated: str, rate: float) -> None:
+    trial = trial_in_child(rover(DIFF + stated, more=""))
+    assert isinstance(trial, Trial)
+    drive = next(leg for leg in trial.legs if leg.name == DRIVE)
+    torque = max(
+        abs(value)
+        for time, value in zip(trial.series["time"], trial.series["torque:front_left"], strict=True)
+        if drive.start < time < drive.end
+    )
+
+    turning = 4 * 0.005 / 0.1**2  # kg: the moments of the wheels at their rims
+    assert torque == pytest.approx((14 + turning) * rate * 0.1 / 2, rel=0.05)
 
 
 class TestJointsWithMotor:

@@ -37,6 +37,7 @@ class ClassicDrive(Record):
     default_diameter: float
     torque: str
     default_torque: float
+    acceleration: str
     each_pair: bool
     swapped_unless_false: str
 
@@ -113,19 +114,39 @@ def classic_drives(robot: Robot, reader: WheelReader) -> Iterator[WheelDrive]:
             continue
         separations = list(_numbers(plugin, drive.separation))
         diameters = list(_numbers(plugin, drive.diameter))
+        at_rim = _acceleration_at_rim(plugin, drive)
         for number, named in enumerate(drive.joints(plugin)):
             diameter = _value_at(diameters, number, drive.default_diameter, plugin)
+            separation = _value_at(separations, number, drive.default_separation, plugin)
             yield WheelDrive(
                 plugin,
                 tuple(_wheels(reader, plugin, named)),
-                _value_at(separations, number, drive.default_separation, plugin),
+                separation,
                 Located(diameter.value / 2, diameter.span, stated=diameter.stated),
-                MotionLimits(plugin.span),
-                MotionLimits(plugin.span),
+                _within(plugin, at_rim),
+                _within(plugin, at_rim, separation.value / 2),
                 separation_tag=drive.separation,
                 diameter_tag=drive.diameter,
                 swaps=drive.swaps(plugin),
             )
+
+
+def _acceleration_at_rim(plugin: Plugin, drive: ClassicDrive) -> Located[float] | None:
+    """Return how fast the plugin speeds its wheels up at the rim, m/s²; None if at once."""
+    stated = next(_numbers(plugin, drive.acceleration), None) if drive.acceleration else None
+    return stated if stated is not None and stated.value > 0.0 else None
+
+
+def _within(plugin: Plugin, at_rim: Located[float] | None, arm: float = 1.0) -> MotionLimits:
+    """Return the limits of a motion in which wheels roll `arm` metres for 1 m or 1 rad."""
+    if at_rim is None or not arm > 0.0:
+        return MotionLimits(plugin.span)
+    most = at_rim.value / arm
+    return MotionLimits(
+        plugin.span,
+        min_acceleration=Located(-most, at_rim.span),
+        max_acceleration=Located(most, at_rim.span),
+    )
 
 
 def _wheels(reader: WheelReader, plugin: Plugin, named: Iterable[_Named]) -> Iterator[Wheel]:

@@ -122,15 +122,12 @@ class Rig:
     def forces(self) -> Array:
         """Forces of the servos in the last step, N·m or N.
 
-        MuJoCo states those before the step; while a joint moves, a stiff servo that is integrated
-        implicitly gives what its law says of the state behind it.
+        MuJoCo states those before the step; a stiff servo that is integrated implicitly gives what
+        its law says of the state behind it, which is far less while the command rises.
         """
         import numpy as np
 
         model, data = self.model, self.data
-        if not self.plan.moves:
-            stated: Array = data.actuator_force.copy()
-            return stated
         speeds = data.qvel[model.jnt_dofadr[self.joints]]
         gain, bias = model.actuator_gainprm[:, 0], model.actuator_biasprm
         forces: Array = gain * data.ctrl + bias[:, 1] * self.positions + bias[:, 2] * speeds
