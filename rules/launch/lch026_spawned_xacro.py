@@ -3,7 +3,8 @@
 `spawn_entity.py` of gazebo_ros and `create` of ros_gz_sim pass the file behind `-file` to Gazebo as
 it is: neither runs xacro. Gazebo refuses numbers such as `${wheel_radius}`, and finds no link in
 `<xacro:include>`: the robot does not appear, or without parts of it. A file that names itself xacro
-and has nothing to expand is not reported.
+and has nothing to expand is not reported, nor is a text in which the launch file replaces parts
+before it is spawned.
 
 Fix: run xacro in the launch file, publish the result as `robot_description`, and spawn with
 `-topic robot_description`; or expand the file before, `xacro arm.urdf.xacro -o arm.urdf`.
@@ -50,7 +51,8 @@ def _spawned_files(package: Package, graph: LaunchGraph) -> Iterator[tuple[Span,
     for loaded in loaded_descriptions(package, graph):
         program = (loaded.node.package.value, loaded.node.executable.value)
         path = local_path(package, loaded.load.path)
-        if program in EVERY_SPAWN and not loaded.load.by_xacro and path:
+        as_it_is = not loaded.load.by_xacro and not loaded.replacing
+        if program in EVERY_SPAWN and as_it_is and path:
             yield loaded.span, path
     for node in graph.nodes_and_spawns:
         if (node.package.value, node.executable.value) in EVERY_SPAWN:
@@ -96,6 +98,8 @@ _AT_HOME = _SIM.replace(
     "in_package('urdf', 'arm.urdf.xacro')", "'/home/ann/ws/src/acme_arm_bringup/urdf/arm.xacro'"
 )
 _ELSEWHERE = _AT_HOME.replace("acme_arm_bringup", "acme_hand")
+_STRING = """        Node(package='ros_gz_sim', executable='create', arguments=['-string', open(@
+            get_package_share_directory('acme_arm_bringup') + '/urdf/arm.urdf.xacro').read()]),"""
 _MARK = "  # ^ LCH026"
 _XACRO = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
   <xacro:property name="radius" value="0.1"/>
@@ -111,9 +115,14 @@ GOOD = [
     {"@ros2": _SIM, "urdf/arm.urdf.xacro": _EXPANDED},
     {"@ros2": _SIM.replace("create", "other"), "urdf/arm.urdf.xacro": _OPEN},
     {"@ros2": _AT_HOME},
+    {
+        "@ros2": _STRING.replace("@", "").replace("read()", "read().replace('${radius}', '0.1')"),
+        "urdf/arm.urdf.xacro": _OPEN,
+    },
 ]
 BAD = [
     {"@ros2": f"{_SIM}{_MARK}", "urdf/arm.urdf.xacro": _OPEN},
+    {"@ros2": _STRING.replace("@", _MARK), "urdf/arm.urdf.xacro": _OPEN},
     {"@ros2": f"{_CLASSIC}{_MARK}", "urdf/arm.urdf.xacro": _OPEN},
     {"@ros2": f"{_AT_HOME}{_MARK}", "urdf/arm.xacro": _OPEN},
     {"@ros2": f"{_ELSEWHERE}{_MARK}", **_HAND, "../acme_hand/urdf/arm.xacro": _OPEN},

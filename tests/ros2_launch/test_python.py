@@ -401,7 +401,7 @@ def test_a_robot_whose_text_is_replaced_is_that_of_the_file(read: Read) -> None:
     )
     parameter = graph.nodes[0].parameter("robot_description")
     assert parameter is not None
-    assert str(parameter.value).endswith("/a.urdf)")
+    assert str(parameter.value).endswith("/a.urdf replacing)")
     assert not graph.unread
 
 

@@ -14,10 +14,11 @@ from checker.formats.xacro.files import ROOT, path_of
 from checker.launch.ros1.launch_file import Load, read_command
 from checker.launch.ros2.graph import LaunchGraph, Node, Parameter, is_known
 from checker.launch.ros2.package_files import local_file
+from checker.launch.ros2.values import CONTENT, REPLACING
 from checker.package.package import Package
 from checker.source.text import Span
 
-_COMMAND, _CONTENT = "$(command ", "$(file-content "
+_COMMAND = "$(command "
 _VARIABLE = re.compile(r"\$\(var ([\w.-]{1,200})\)")
 _ONE_WORD = re.compile(r"\$\(var:([\w.-]{1,200})\)")
 _SUFFIXES = (".urdf", ".xacro", ".xml", ".sdf")
@@ -34,6 +35,7 @@ class LoadedDescription(Record, eq=False):
         node: The node that gets it.
         parameter: The parameter that contains it; None if it is among the arguments.
         span: The place where the file is named.
+        replacing: Whether the launch file replaces parts of the text of the file.
     """
 
     load: Load
@@ -43,6 +45,7 @@ class LoadedDescription(Record, eq=False):
     node: Node
     parameter: Parameter | None
     span: Span
+    replacing: bool = False
 
 
 def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[LoadedDescription]:
@@ -67,7 +70,10 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
                     for name, value in load.args.items()
                     if (own := defaults.get(name)) and own.default and own.default.value == value
                 }
-                yield LoadedDescription(load, tuple(given), choices, offered, node, parameter, span)
+                replacing = text.endswith(f"{REPLACING})")
+                yield LoadedDescription(
+                    load, tuple(given), choices, offered, node, parameter, span, replacing
+                )
 
 
 def _texts(node: Node) -> Iterator[tuple[str, Parameter | None, Span]]:
@@ -76,7 +82,7 @@ def _texts(node: Node) -> Iterator[tuple[str, Parameter | None, Span]]:
         if isinstance(parameter, Parameter) and isinstance(parameter.value, str):
             yield parameter.value, parameter, parameter.span
     for option, word in pairwise(node.arguments):
-        yield f"{_CONTENT}{word.value})" if option.value == "-file" else word.value, None, word.span
+        yield f"{CONTENT}{word.value})" if option.value == "-file" else word.value, None, word.span
 
 
 _RANKS = {True: 0, None: 1, False: 2}
@@ -90,8 +96,8 @@ def _described(package: Package, text: str) -> Iterator[tuple[Load, dict[str, st
             path = _as_listed(package, load.path)
             if path is not None:
                 yield replace(load, path=path), _unknown(command)
-    elif text.startswith(_CONTENT) and text.endswith(")"):
-        path = _as_listed(package, text.removeprefix(_CONTENT)[:-1])
+    elif text.startswith(CONTENT) and text.endswith(")"):
+        path = _as_listed(package, text.removeprefix(CONTENT)[:-1].removesuffix(REPLACING))
         if path is not None and path.lower().endswith(_SUFFIXES):
             yield Load(path, {}, by_xacro=False), {}
 

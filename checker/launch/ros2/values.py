@@ -103,8 +103,14 @@ class PlacedText(str):
         return self
 
 
+CONTENT = "$(file-content "
+REPLACING = " replacing"
+
+
 class FileText(PlacedText):
     """The whole text of a file: `$(file-content PATH)`.
+
+    Behind the path, `replacing` says that the launch file replaces parts of the text.
 
     Attributes:
         path: The path of the file.
@@ -116,9 +122,15 @@ class FileText(PlacedText):
     @classmethod
     def read(cls, path: str, span: Span) -> FileText:
         """Return the text of a file."""
-        self = cls(f"$(file-content {path})", span)
+        self = cls(f"{CONTENT}{path})", span)
         self.path = path
         return self
+
+    def replaced(self) -> FileText:
+        """Return the text after `replace`."""
+        text = FileText(f"{CONTENT}{self.path}{REPLACING})", self.span)
+        text.path = self.path
+        return text
 
 
 class Unknown(Record, eq=False):

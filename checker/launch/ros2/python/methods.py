@@ -104,10 +104,12 @@ def call(  # noqa: PLR0911 - one per method
             return _of_dict(run, owner, name, positional, named, node)
         case OpenFile() if name in ("read", "close", "readlines"):
             return FileText.read(owner.path, run.span(node)) if name == "read" else None
+        case FileText() if name == "replace" and not _adds(positional):
+            return owner.replaced()  # the robot is judged as it is written
         case str() if owner.startswith(_WHOLE) and (
             name == "strip" or (name == "replace" and not _adds(positional))
         ):
-            return owner  # the robot is judged as it is written
+            return owner
         case FilePath():
             return _on_path(run, owner, name, positional, node)
         case Made():
