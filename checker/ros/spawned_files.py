@@ -76,6 +76,25 @@ class SpawnedFiles(Record, eq=False, dict=True):
             return _ELSEWHERE
         return _HARDWARE if any(map(_starts_manager, loading)) else ""
 
+    def manager_outside(self, robot: Robot) -> Node | None:
+        """Return the ros2_control_node that certainly gets a robot, where no Gazebo gets it.
+
+        It is one of a launch file that spawns nothing, and that gives xacro no arguments.
+        """
+        file = robot.document.source.file
+        for graph, loaded in self._graphs:
+            given = [it for it in loaded if it.node.starts is not False and _describes(it)]
+            nodes = graph.nodes_and_spawns
+            managers = [it for it in nodes if it.starts and _program(it) == (MANAGER, MANAGER_NODE)]
+            certain = given and all(
+                self._file(it) == file and it.node.starts and not it.load.args and not it.unknown
+                for it in given
+            )
+            spawns = any(_program(it) in EVERY_SPAWN for it in nodes)
+            if managers and certain and not spawns and not _may_spawn_more(graph):
+                return managers[0]
+        return None
+
     def is_spawned(self, robot: Robot) -> bool:
         """Return whether a launch file that loads a robot starts what spawns it into Gazebo."""
         file = robot.document.source.file
@@ -132,6 +151,11 @@ class SpawnedFiles(Record, eq=False, dict=True):
 
     def _file(self, loaded: LoadedDescription) -> str:
         return local_path(self.package, loaded.load.path) or ""
+
+
+def _describes(given: LoadedDescription) -> bool:
+    """Return whether a node passes a description on to controller managers, or is one."""
+    return is_state_publisher(given.node) or _program(given.node) == (MANAGER, MANAGER_NODE)
 
 
 def _program(node: Node) -> tuple[str, str]:

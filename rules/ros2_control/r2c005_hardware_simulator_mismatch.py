@@ -8,14 +8,17 @@ Without any `<ros2_control>` tag the plugin stops, and there is no controller ma
 `name` is the class that is loaded from the library; it cannot be chosen freely. An SDF model in the
 workspace that has the plugin and the same joints takes the place of the URDF file in Gazebo. In a
 description that launch files load and never spawn, where they spawn another one or give it to
-ros2_control_node, nothing is an error, and hardware of a real robot is right.
+ros2_control_node, nothing is an error, and hardware of a real robot is right. ros2_control_node
+cannot load hardware of Gazebo: it loads no hardware at all, and no controller starts.
 
 Fix: write the plugin below `<gazebo>`, with `<parameters>`, and the hardware of the same simulator:
 from Harmonic on `gz_ros2_control-system`, `gz_ros2_control::GazeboSimROS2ControlPlugin` and
 `gz_ros2_control/GazeboSimSystem`; in Fortress `ign_ros2_control-system`,
 `ign_ros2_control::IgnitionROS2ControlPlugin` and `ign_ros2_control/IgnitionSystem`; in Gazebo
 Classic `libgazebo_ros2_control.so`, any name, and `gazebo_ros2_control/GazeboSystem`.
-Source: gz_ros2_control, gz_hardware_plugins.xml and GZ_ADD_PLUGIN of each branch.
+For ros2_control_node, leave the hardware of Gazebo out with an argument of xacro.
+Source: gz_ros2_control, gz_hardware_plugins.xml and GZ_ADD_PLUGIN of each branch: the base class
+is none of hardware_interface, which alone ros2_control_node loads.
 """
 
 from collections.abc import Iterator, Mapping
@@ -23,9 +26,11 @@ from collections.abc import Iterator, Mapping
 from msgspec.structs import replace
 
 from checker.formats.xacro.expanded import ExpandedText
+from checker.launch.ros2.graph import Node
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.exported_hardware import is_exported_for_gazebo
+from checker.ros.ros2_control.hardware import Hardware
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.ros.ros2_control.sdf_managers import managed_by_sdf
 from checker.ros.spawned_files import SpawnedFiles
@@ -67,8 +72,13 @@ def check(
 
     Gazebo's hardware without a plugin, and a plugin with other hardware, are warnings, except for
     hardware that Gazebo gets whatever its launch files are given. In what Gazebo never gets nothing
-    is an error, and other hardware is none of its faults.
+    is an error but its hardware for ros2_control_node, and other hardware is none of its faults.
     """
+    simulated = _simulated(control, package) if control.by_default else []
+    manager = spawned.manager_outside(control.robot) if simulated else None
+    if manager is not None:
+        yield _outside(simulated[0], manager)
+        return
     found = [*_found(control, package, context)]
     clause = spawned.without(control.robot) if found else ""
     for each in found:
@@ -79,6 +89,33 @@ def check(
         elif each.key != _OTHER_HARDWARE:
             message = f"{each.message} ({clause})"
             yield replace(each, message=message, severity=Severity.WARNING)
+
+
+def _outside(hardware: Hardware, manager: Node) -> Finding:
+    """Report hardware of Gazebo at the ros2_control_node that gets it, if the package has that."""
+    places = [
+        (manager.executable, "ros2_control_node gets it here"),
+        (hardware.plugin, "the hardware"),
+    ]
+    if manager.executable.span.source.file.startswith("../"):
+        places.reverse()
+    (place, _), other = places
+    return finding(
+        place,
+        f"ros2_control_node cannot load hardware {hardware.plugin.value!r}, which exists only in "
+        "Gazebo: no hardware of the robot is loaded, and no controller starts; leave the tag out "
+        "of what ros2_control_node gets",
+        key="outside of Gazebo",
+        related=[other],
+    )
+
+
+def _simulated(control: RobotControl, package: Package) -> list[Hardware]:
+    return [
+        each
+        for each in control.hardware
+        if is_of_gazebo(each.plugin.value) or is_exported_for_gazebo(each.plugin.value, package)
+    ]
 
 
 def _is_certain(control: RobotControl) -> bool:
@@ -131,11 +168,7 @@ def _names(manager: GazeboManager, release: str) -> Iterator[Finding]:
 
 
 def _disagreement(control: RobotControl, package: Package) -> Iterator[Finding]:
-    simulated = [
-        each
-        for each in control.hardware
-        if is_of_gazebo(each.plugin.value) or is_exported_for_gazebo(each.plugin.value, package)
-    ]
+    simulated = _simulated(control, package)
     others = [each for each in control.hardware if each not in simulated and each.plugin.value]
     if control.managers and not control.hardware:
         yield finding(
@@ -190,6 +223,29 @@ def _plugin(library: str, name: str, mark: str = "") -> str:
     return f'<gazebo>\n<plugin filename="{library}" name="{name}"/>{mark}\n</gazebo>'
 
 
+def _managed(mark: str, spawn: str = "") -> dict[str, str]:
+    """Return an arm with hardware of Gazebo that is given to ros2_control_node."""
+    return {
+        "@ros2": f"""        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{{'robot_description': ParameterValue(robot, value_type=str)}}]),
+        Node(package='controller_manager', executable='ros2_control_node'),{mark}
+{spawn}""",
+        "urdf/arm.urdf.xacro": f"""<robot name="arm">
+<link name="base_link"/>
+<link name="upper_arm"/>
+<joint name="shoulder" type="revolute">
+  <parent link="base_link"/><child link="upper_arm"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/>
+</joint>
+{ros2_control(hardware=GAZEBO)}
+{_plugin(*_GZ)}
+</robot>
+""",
+    }
+
+
+_SPAWN = """        Node(package='ros_gz_sim', executable='create',
+             arguments=['-topic', 'robot_description']),"""
 _GZ = ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin")
 _IGNITION = "<plugin>ign_ros2_control/IgnitionSystem</plugin>"
 _MARK = "  <!-- ^ R2C005 -->"
@@ -198,6 +254,7 @@ _EXPORTED = """<library path="acme">
 </library>
 """
 GOOD = [
+    _managed("", _SPAWN),
     _arm(_plugin(*_GZ)),
     _arm(_plugin("libgz_ros2_control-system.so", _GZ[1])),
     _arm(_plugin("libacme_gz_ros2_control-system.so", "acme::Control")),
@@ -210,6 +267,7 @@ GOOD = [
     },
 ]
 BAD = [
+    _managed(_MARK.replace("<!--", "#").replace(" -->", "")),
     _arm(_plugin(_GZ[0], "gz_ros2_control", _MARK)),
     _arm(_plugin("ign_ros2_control-system", "ros2_control", _MARK), _IGNITION),
     _arm("", GAZEBO + _MARK),

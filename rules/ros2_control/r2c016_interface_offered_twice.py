@@ -3,7 +3,8 @@
 The controller manager has one command interface `elbow/position`. Up to Humble, it logs "command
 interface already in available list" for the second one, whose hardware never gets a command; later
 releases refuse to load that hardware. Where the second one is a mock, this is a warning: MoveIt
-Setup Assistant adds such a tag to robots that have another, which moves the joint.
+Setup Assistant adds such a tag to robots that have another, which moves the joint. R2C005 reports
+hardware of Gazebo that ros2_control_node gets, with which none of them is loaded.
 
 Fix: remove the joint's `<command_interface>` from one of the tags, or put each tag below an
 `xacro:if`, so that one of them is left.
@@ -12,16 +13,20 @@ interfaces.
 """
 
 from checker.base.words import and_list
-from checker.ros.ros2_control.distributions import distribution_of, is_from, is_mock
+from checker.ros.ros2_control.distributions import distribution_of, is_from, is_mock, is_of_gazebo
 from checker.ros.ros2_control.hardware import Hardware, HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
+from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import GAZEBO, SHOULDER, ros2_control
 
 
 @rule("R2C016", "interface-offered-twice", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, context: Context) -> Findings:
+def check(control: RobotControl, context: Context, spawned: SpawnedFiles) -> Findings:
     """Report joints with the same command interface in two `<ros2_control>` tags."""
+    simulated = any(is_of_gazebo(it.plugin.value) for it in control.hardware)
+    if simulated and control.by_default and spawned.manager_outside(control.robot):
+        return
     lost = "is not loaded" if is_from(distribution_of(context), "iron") else "does not move"
     first: dict[str, tuple[Hardware, HardwareJoint]] = {}
     for hardware in control.hardware:
