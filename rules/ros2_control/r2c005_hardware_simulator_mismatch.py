@@ -226,7 +226,8 @@ def _plugin(library: str, name: str, mark: str = "") -> str:
 def _managed(mark: str, spawn: str = "") -> dict[str, str]:
     """Return an arm with hardware of Gazebo that is given to ros2_control_node."""
     return {
-        "@ros2": f"""        Node(package='robot_state_publisher', executable='robot_state_publisher',
+        "@ros2": f"""        Node(
+             package='robot_state_publisher', executable='robot_state_publisher',
              parameters=[{{'robot_description': ParameterValue(robot, value_type=str)}}]),
         Node(package='controller_manager', executable='ros2_control_node'),{mark}
 {spawn}""",
