@@ -22,7 +22,7 @@ from checker.package.package import Package
 from checker.package.target import ros_2_package
 from checker.ros.spawned_files import SpawnedFiles
 from checker.ros.wiring.classic import unsent_topics
-from checker.ros.wiring.endpoints import Endpoint, remap_rule
+from checker.ros.wiring.endpoints import Endpoint, remap_rule, remap_texts
 from checker.ros.wiring.wiring import Wirings
 from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.text import Located
@@ -56,8 +56,7 @@ def check(
 
 
 def _remappings(plugin: Plugin) -> Iterator[Located[str]]:
-    ros = "ros/" if plugin.element.child("ros") is not None else ""
-    for text in plugin.at(f"{ros}remapping"):
+    for text in remap_texts(plugin):
         if remap_rule(text.value)[0].strip("/") == "odom":
             yield text
 

@@ -220,6 +220,7 @@ GOOD = [
     _controlled_example("base/odom"),
     _controlled_example("odom", "~/odom:=/odom"),
     _classic("<remapping>~/out:=scan</remapping>"),
+    _classic("<argument>~/out:=scan</argument>"),
     _example("nav2_controller/controller_server", _COSTMAP.replace("@", "/scan"), True),
 ]
 BAD = [

@@ -13,7 +13,7 @@ from checker.launch.ros1.graph import apply_remaps
 from checker.model.components import Plugin, Sensor
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
-from checker.ros.wiring.endpoints import Endpoint, remap_rule
+from checker.ros.wiring.endpoints import Endpoint, remap_rule, remap_texts
 
 _DEFAULT_OUTPUT = "sensor_msgs/PointCloud2"
 _TRUE = ("1", "true")
@@ -75,7 +75,7 @@ def _endpoint(plugin: Plugin, sensor: Sensor | None, topic: _Topic) -> Endpoint:
     name = topic.topic.replace(
         "{camera_name}", camera or (sensor.name.value if sensor is not None else "")
     )
-    rules = (remap_rule(text.value) for text in plugin.at(f"{ros}remapping"))
+    rules = (remap_rule(text.value) for text in remap_texts(plugin))
     resolved = apply_remaps(name, rules, f"/{namespace.strip('/')}", plugin.name.value)
     output = next((text.value.strip() for text in plugin.at("output_type")), _DEFAULT_OUTPUT)
     kind = topic.type.replace("{output_type}", output.replace("/msg/", "/").replace("/", "/msg/"))

@@ -6,9 +6,10 @@ from collections.abc import Collection, Iterable, Iterator
 
 from checker.base.record import Record
 from checker.launch.ros1.bridge import Direction
+from checker.model.components import Plugin
 from checker.ros.simulation import Simulation
 from checker.ros.wiring.nodes import WiredNode
-from checker.source.text import Span
+from checker.source.text import Located, Span
 
 
 class Endpoint(Record, eq=False):
@@ -73,6 +74,16 @@ def bridge_endpoints(simulation: Simulation) -> Iterator[Endpoint]:
             if entry.ros_topic and entry.direction is not other:
                 span = entry.passed.ros_topic.span
                 yield Endpoint(entry.ros_topic, types, publishes, by, span, entry, entry.counts)
+
+
+def remap_texts(plugin: Plugin) -> Iterator[Located[str]]:
+    """Yield the remaps of a plugin of Gazebo Classic, in its `<ros>` or beside it.
+
+    gazebo_ros gives `<argument>` to rcl before `--ros-args`, where `a:=b` is a remap as well.
+    """
+    ros = "ros/" if plugin.element.child("ros") is not None else ""
+    yield from (it for it in plugin.at(f"{ros}argument") if ":=" in it.value)
+    yield from plugin.at(f"{ros}remapping")
 
 
 def remap_rule(text: str) -> tuple[str, str]:

@@ -12,6 +12,7 @@ from checker.model.robot import Robot
 from checker.model.values import parse_number
 from checker.ros.simulation import Simulation
 from checker.ros.wiring.controllers import RunController
+from checker.ros.wiring.endpoints import remap_texts
 from checker.ros.wiring.nodes import WiredNode
 from checker.source.text import Span
 
@@ -118,7 +119,7 @@ def _bridged(simulation: Simulation) -> Iterator[Transform]:
 
 def _of_classic(plugin: Plugin) -> Iterator[Transform]:
     library = library_stem(plugin.filename.value)
-    if library not in _CLASSIC or any("tf" in text.value for text in plugin.at("ros/remapping")):
+    if library not in _CLASSIC or any("tf" in text.value for text in remap_texts(plugin)):
         return
     switch, usual, child = _CLASSIC[library]
     stated = {
