@@ -203,6 +203,7 @@ GOOD = [
     {"@ros2": "        DeclareLaunchArgument('map', default_value='/opt/maps/hall.yaml'),"},
     _example("$(find-pkg-share acme_rover_bringup)/maps/hall.yaml"),
     _example("/home/ann/logs/run.csv", name="output_file"),
+    _example("/path/to/log.txt", name="debug_out_file"),
     _example("/opt/ros/jazzy/share/nav2_bringup/maps/depot.yaml"),
     _example("/home/ann/maps"),
     _example("/map/image.raw", name="topic"),
