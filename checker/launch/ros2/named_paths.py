@@ -25,7 +25,9 @@ from checker.package.package import Package
 from checker.source.text import Located, Span
 
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
-_SAVES = re.compile(r"(?:\A|[_.])(?:saved?|out(?:put|_file)|storage|record|write|dump|export)(?:[_.]|\Z)")
+_SAVES = re.compile(
+    r"(?:\A|[_.])(?:saved?|out(?:put|_file)|storage|record|write|dump|export)(?:[_.]|\Z)"
+)
 """Names of parameters of what a node writes: `pcd_save.pcd_save_en`, `debug_out_file`."""
 _OF_ROS = ("moveit_", "nav2_", "rviz")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
