@@ -14,9 +14,8 @@ from checker.package.gazebo_sign import release_sign
 from checker.package.mentions import has_word
 from checker.package.simulator_signs import (
     CLASSIC,
+    GZ,
     IGNITION,
-    LATER,
-    ROS_GZ,
     classic_beside_later,
     classic_start,
     gz_sim_start,
@@ -86,10 +85,14 @@ def _targets_of(
 def _target_beside(package: Package) -> DetectedTarget | None:
     """Return the distribution whose folder the packages beside it name, if they name one alone.
 
-    Their containers do not count: packages of others bring theirs along.
+    Their containers do not count: packages of others bring theirs along. Nor do the paths of one
+    whose own README, container or CI files name another distribution.
     """
-    others = () if package.only else package.other_packages
-    named = {sign.distro: (sign, it.name) for it in others if (sign := sign_of_paths(it))}
+    named = {}
+    for other in () if package.only else package.other_packages:
+        sign, stated = sign_of_paths(other), other.distribution_sign
+        if sign and (stated is None or stated.distro == sign.distro):
+            named[sign.distro] = (sign, other.name)
     if len(named) != 1:
         return None
     ((distro, (sign, name)),) = named.items()
@@ -155,7 +158,7 @@ def _shown_target(package: Package, distro: str) -> DetectedTarget:
         words = f"{named.words}, {where}" if gazebo else named.words
         reason = f"ROS 2 {distro.capitalize()}{release}: {words}"
         return DetectedTarget(False, _known_distribution(distro), reason, gazebo)
-    if IGNITION in signs and {*signs} <= {IGNITION, LATER, ROS_GZ} and not distro:
+    if IGNITION in signs and GZ not in signs and not distro:
         reason = f"ROS 2 Humble and Gazebo Fortress: {signs[IGNITION]}"
         return DetectedTarget(False, _OLDEST, reason)
     return DetectedTarget(False, distro)

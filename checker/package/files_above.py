@@ -54,7 +54,7 @@ def files_above(package: Package, names: re.Pattern[str]) -> list[tuple[SourceTe
 
 def _tops(package: Package) -> Iterator[Path]:
     given = package.workspace.given
-    top = package.root if package.only else package.workspace.directories[0]
+    top = package.root if package.only else package.root.parent
     if given is not None or not package.only:
         yield top
     while given is not None and top != given and top.is_relative_to(given):

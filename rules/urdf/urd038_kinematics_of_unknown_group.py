@@ -1,4 +1,4 @@
-"""kinematics.yaml configures a group that the SRDF does not have.
+"""A group in `kinematics.yaml` that the SRDF does not have.
 
 MoveIt looks for the solver under the name of the group, so that the group meant has none: poses
 cannot be planned ("No kinematics solver instantiated for group"), and the marker in RViz does not

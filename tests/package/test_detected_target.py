@@ -64,6 +64,7 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
         ({"@ros2": ROS_GZ, URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
         ({"@ros2": ROS_GZ, URDF: f"{IGNITION_PLUGIN}{LIDAR}"}, ("ros2", "humble")),
         ({"@ros2": f"{ROS_GZ}{IGNITION_CLOCK}", URDF: LIDAR}, ("ros2", "humble")),
+        ({"@ros2": f"{SPAWN}{ROS_GZ}", URDF: IGNITION_PLUGIN}, ("ros2", "humble")),
         ({"@ros2": f"{ROS_GZ}{IGNITION_CLOCK}", URDF: GZ_PLUGIN}, ("ros2", "")),
         ({"@ros2": SPAWN, URDF: LIDAR}, ("ros2-classic", "humble")),
         ({"@ros2": GZ_SIM, URDF: IGNITION_PLUGIN}, ("ros2", "")),
@@ -525,3 +526,19 @@ def test_a_readme_names_another_gazebo_than_that_of_the_distribution(
     assert Judge.from_settings(settings).context.release == release
     if gazebo:
         assert settings.target_reason.startswith("ROS 2 Humble and Gazebo Harmonic: README.md:")
+
+
+@pytest.mark.parametrize(("readme", "distro"), [("", "galactic"), ("Needs ROS 2 Humble", "jazzy")])
+def test_the_readme_of_a_package_in_another_folder_counts_before_its_scripts(
+    readme: str, distro: str, tmp_path: Path
+) -> None:
+    home, away = tmp_path / "src" / "arm", tmp_path / "vendor" / "eye"
+    for folder in (home, away):
+        folder.mkdir(parents=True)
+        text = DEPENDS.replace("acme_arm", folder.name)
+        (folder / "package.xml").write_text(text)
+    (away / "run.sh").write_text("source /opt/ros/galactic/setup.bash\n")
+    (away.parent / "README.md").write_text(f"# Eye\n\n{readme}\n")
+    with open_input(tmp_path) as found:
+        reasons = {it.name: Settings().for_package(it).target_reason for it in found.packages}
+    assert distro.capitalize() in reasons["arm"]
