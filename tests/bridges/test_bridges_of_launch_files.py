@@ -171,6 +171,16 @@ def test_arguments_that_are_refused(word: str) -> None:
     assert isinstance(read_argument(_word(word)), BridgeFault)
 
 
+@pytest.mark.parametrize(("name", "missing"), [("bridge", False), ("bridges", True)])
+def test_a_file_as_argument_is_named(name: str, missing: bool, tmp_path: Path) -> None:
+    path = f'os.path.join(HERE, "config", "{name}.yaml")'
+    bridge = BRIDGE.replace("[]", f"['@' + {path}]")
+    (fault,) = simulation(launched(bridge, '"lazy": True'), tmp_path).bridges.faults
+
+    assert f"write '--ros-args', '-p', 'config_file:=…/{name}.yaml'" in fault.message
+    assert fault.message.endswith("does not exist") == missing
+
+
 @pytest.mark.parametrize(
     "text",
     ["", "a: *b", "[[[", "- 1", "- [a]", "3", "- {1: 2}", "- {ros_type_name: {a: b}}", "- ~"],

@@ -7,12 +7,13 @@ import re
 
 from checker.base.record import Record
 from checker.launch.ros1.bridge import Direction
-from checker.launch.ros2.graph import Node
+from checker.launch.ros2.graph import Node, display_path
 from checker.source.text import Located, Span
 
 GZ_PREFIXES = ("gz.msgs.", "ignition.msgs.")
 _GRAMMAR = "<topic>@<ros type>@<gz type>, with [ or ] for the second @"
 MARKS = {"@": Direction.BOTH, "[": Direction.TO_ROS, "]": Direction.TO_IGN}
+_FILE = re.compile(r"(?:@|\w{1,40}:?=)?([^@=]{1,500}\.ya?ml)\Z")
 _SERVICE = re.compile(r"/srv/")
 
 
@@ -130,22 +131,30 @@ def gz_name(gz_type: str) -> str:
     return gz_type.removeprefix(prefix)
 
 
+def named_file(argument: str) -> str:
+    """Return the path of the YAML file that an argument is meant to give; empty if it is none."""
+    found = _FILE.match(argument)
+    return found[1] if found else ""
+
+
 def read_argument(word: Located[str]) -> Passed | BridgedService | BridgeFault:
     """Read an argument of `parameter_bridge`."""
 
-    def fault(reason: str) -> BridgeFault:
+    def fault(reason: str, expected: str = f"expected {_GRAMMAR}") -> BridgeFault:
+        reason = f"{reason}; {expected}"
         return BridgeFault(
             BridgeFaultKind.ARGUMENT,
             word.span,
-            f"parameter_bridge ends at the argument {word.value!r:.200}: {reason}; "
-            f"expected {_GRAMMAR}",
+            f"parameter_bridge ends at the argument {display_path(word.value)!r:.200}: {reason}",
         )
 
+    if file := named_file(word.value):
+        name = file.rpartition("/")[2]
+        cure = f"write '--ros-args', '-p', 'config_file:=…/{name}'"
+        return fault("it is a file, not a topic", cure)
     topic, at, rest = word.value.partition("@")
-    if not at:
-        return fault("it has no '@'")
-    if not topic:
-        return fault("it names no topic")
+    if not (topic and at):
+        return fault("it names no topic" if at else "it has no '@'")
     if _SERVICE.search(rest):
         kind, *messages = (Located(text, word.span) for text in rest.split("@"))
         return BridgedService(Located(topic, word.span), kind, tuple(messages))

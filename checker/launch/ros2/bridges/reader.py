@@ -19,6 +19,7 @@ from checker.launch.ros2.bridges.entry import (
     BridgeFault,
     BridgeFaultKind,
     Passed,
+    named_file,
     read_argument,
 )
 from checker.launch.ros2.bridges.file import is_bridge_file, read_bridge_file
@@ -33,7 +34,7 @@ from checker.launch.ros2.graph import (
     is_known,
     share_path,
 )
-from checker.launch.ros2.package_files import local_file, read_file
+from checker.launch.ros2.package_files import exists, local_file, read_file
 from checker.package.package import Package
 from checker.source.text import Located, SourceText
 
@@ -200,9 +201,16 @@ class _Reader:
         elif isinstance(read, BridgedService):
             self._services.append(read)
         elif is_known(word.value):
-            self._faults.append(read)
+            self._faults.append(self._with_missing_file(read, word.value))
         else:
             self._unread.append(f"the argument {display_path(word.value)[:80]!r} is not known")
+
+    def _with_missing_file(self, fault: BridgeFault, argument: str) -> BridgeFault:
+        """Add to the fault of an argument that is a file that this does not exist."""
+        file = named_file(argument)
+        if not file or exists(self._package, file) is not False:
+            return fault
+        return replace(fault, message=f"{fault.message}; {display_path(file)} does not exist")
 
     def _configured(self, parameters: Parameters, given: dict[str, Located[str]], at: _At) -> None:
         """Read the files that parameters name."""
