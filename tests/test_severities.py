@@ -78,6 +78,15 @@ BRIDGE = """- topic_name: /model/{}/odometry
   gz_type_name: gz.msgs.{}
   direction: GZ_TO_ROS
 """
+JOINTS = """- topic_name: /model/rover/joint_state
+  ros_type_name: sensor_msgs/msg/JointState
+  gz_type_name: gz.msgs.Model
+  direction: GZ_TO_ROS
+"""
+PUBLISHES_JOINTS = {
+    "LaunchDescription([": """LaunchDescription([
+        Node(package="joint_state_publisher", executable="joint_state_publisher"),"""
+}
 TOOL = '<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tool"/></joint>'
 EMPTY_COPY = {
     "arm.urdf": "",
@@ -316,6 +325,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("BRG002", {"@bridge": BRIDGE.format("a", "nav_msgs/msg/odometry", "Odometry")}, "error"),
     ("BRG002", {"@bridge": TWICE}, "warning"),
     ("BRG004", {"@bridge": BRIDGE.format("a", "nav_msgs/msg/Odometry", "Odometry")}, "warning"),
+    ("BRG004", {"@bridge": JOINTS}, "warning"),
+    ("BRG004", {"@bridge": JOINTS, "@launch": PUBLISHES_JOINTS}, "info"),
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),
     ("INE006", BRACKET.format(mass=30, shape=CUBE_BOX), "warning"),

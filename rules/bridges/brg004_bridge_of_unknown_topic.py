@@ -7,7 +7,8 @@ spawning program sets the name of the model.
 The rule needs all robots that the launch file spawns. It reports a topic if everything that the
 launch file starts is known, or if the robot has a topic with this message that is not bridged,
 whatever models of the world are not available. Topics in the robot's files that an argument
-switches off are skipped.
+switches off are skipped. Where another node publishes joint states or, for a robot without a drive,
+the transforms of the same topic, nothing is missing: it is an info.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.
@@ -20,15 +21,20 @@ from collections.abc import Iterable, Iterator
 from checker.base.resources import table
 from checker.launch.ros1.bridge import Direction
 from checker.launch.ros2.bridges.entry import BridgeEntry
+from checker.model.locomotion.locomotion import DriveKind
 from checker.package.package import Package
 from checker.ros.simulated_topics import SimulatedTopic
 from checker.ros.simulation import Simulation, Simulations
+from checker.ros.spawned import SpawnedRobot
+from checker.ros.wiring.joint_states import JOINT_STATE
+from checker.ros.wiring.wiring import Wiring, Wirings
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
 _OF_THE_WORLD = re.compile(r"/(?:clock|stats|gui|keyboard|marker|world/[^/]*/(?!model/))")
 _CLOCK = "Clock"
+_TRANSFORMS = "tf2_msgs/msg/TFMessage"
 _FILES_LIMIT = 100
 _SEVERAL = 2
 _OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empty")
@@ -36,7 +42,7 @@ _OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empt
 
 
 @rule("BRG004", "bridge-of-unknown-topic", Severity.WARNING, Concern.INTERFACE)
-def check(package: Package, simulations: Simulations) -> Findings:
+def check(package: Package, simulations: Simulations, wirings: Wirings | None) -> Findings:
     """Report topics that no robot, model or world has, if all of them are known.
 
     It is an error if several bridges, and no other ones, are for the robot's topics, and for the
@@ -51,9 +57,37 @@ def check(package: Package, simulations: Simulations) -> Findings:
         in_vain = len(faults) == len(own) >= _SEVERAL
         for entry, fault in (*faults, *_of_other_worlds(simulation, entries)):
             is_grave = in_vain or entry.gz_name == _CLOCK
-            yield finding(
-                entry.passed.gz_topic, fault, severity=Severity.ERROR if is_grave else None
-            )
+            severity, other = Severity.ERROR if is_grave else None, ""
+            if publisher := _given_otherwise(simulation, wirings, entry):
+                severity, other = Severity.INFO, f" ({publisher} in ROS)"
+            yield finding(entry.passed.gz_topic, f"{fault}{other}", severity=severity)
+
+
+def _given_otherwise(simulation: Simulation, wirings: Wirings | None, entry: BridgeEntry) -> str:
+    """Return who else in ROS publishes what a bridge should, as a clause; empty if none does."""
+    message = entry.passed.ros_type.value
+    if entry.direction is Direction.TO_IGN or message not in (JOINT_STATE, _TRANSFORMS):
+        return ""
+    if message == _TRANSFORMS and any(map(_drives, simulation.robots)):
+        return ""  # nothing else publishes where the robot is
+    ends = [it for each in _wired(simulation, wirings) for it in each.endpoints]
+    is_read = any(it.topic == entry.ros_topic and not it.publishes for it in ends)
+    for each in ends:
+        publishes = each.publishes and each.certain and each.owner not in simulation.entries
+        same = each.topic == entry.ros_topic or (message == JOINT_STATE and not is_read)
+        if publishes and same and message in each.types:
+            return f"{each.by} publishes {each.topic}"
+    return ""
+
+
+def _wired(simulation: Simulation, wirings: Wirings | None) -> Iterator[Wiring]:
+    for each in wirings.all if wirings is not None else ():
+        if each.simulation is simulation:
+            yield each
+
+
+def _drives(spawned: SpawnedRobot) -> bool:
+    return spawned.robot.locomotion.kind is not DriveKind.NONE
 
 
 def _of_other_worlds(
@@ -128,12 +162,17 @@ def _lacking(entry: BridgeEntry) -> str:
     """Return the system that has such a topic, if only one does: the robot lacks it."""
     last = posixpath.basename(entry.gz_topic)
     systems = [
-        system
+        f"{system} would have {_named(topic)}"
         for system, topics in table("simulated_topics")["plugins"].items()
         for topic, _, messages, _ in topics
         if posixpath.basename(topic) == last and entry.gz_name in messages
     ]
-    return f"; the system {systems[0]} would have it" if len(systems) == 1 else ""
+    return f"; the system {systems[0]}" if len(systems) == 1 else ""
+
+
+def _named(topic: str) -> str:
+    """Return a topic with W for the name of the world and M for that of the model."""
+    return topic.replace("/world/*", "/world/W").replace("/model/*", "/model/M")
 
 
 def _other_name(
