@@ -10,6 +10,9 @@ were read, and the launch file starts Gazebo whose /clock comes to ROS; or where
 such node or a robot_state_publisher with `use_sim_time`: the stamps of one are then decades away
 from the other's. So it is where the argument `use_sim_time` of a launch file, false by default, is
 given to one of them and not to another, if a README starts the launch file with that argument true.
+A parameter that `SetParameter` sets for all nodes comes first on their command lines. rcl then
+reads the parameters of the launch file into the same block, and a block of a parameter file that
+names the node counts more: where it says true against the launch file's false, it is reported.
 
 Fix: state `use_sim_time: true` for the node, or `SetParameter` for all that follow it.
 Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and navigation2.
@@ -18,13 +21,13 @@ Source: ROS 2 design, "Clock and Time"; robot_localization, slam_toolbox and nav
 import posixpath
 from itertools import chain
 
-from checker.launch.ros2.graph import NodeKind
+from checker.launch.ros2.graph import NodeKind, Parameter
 from checker.package.files_above import README, files_around
 from checker.package.package import Package
 from checker.ros.transforms import STATE_PUBLISHER
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _PARAMETER = "use_sim_time"
 _COMMAND = "use_sim_time:=true"
@@ -44,6 +47,9 @@ def check(wiring: Wiring, package: Package) -> Findings:
     simulated = [node for node in timed if _text(node) == "true"]
     reason = "this launch starts Gazebo, whose messages have the time of /clock"
     if not _has_clock(wiring):
+        against = [node for node in simulated if _is_overruled(node)]
+        yield from map(_against_launch, against)
+        simulated = [node for node in simulated if node not in against]
         elsewhere = simulated and (wiring.simulation is None or not wiring.simulation.servers)
         reason = f"{simulated[0].label} of this launch uses /clock" if elsewhere else ""
     given, expected = [node for node in timed if _is_given(node)], "true"
@@ -64,6 +70,29 @@ def check(wiring: Wiring, package: Package) -> Findings:
                     (it.settings[_PARAMETER].span, it.label) for it in (simulated or given)[:1]
                 ],
             )
+
+
+def _is_overruled(node: WiredNode) -> bool:
+    """Return whether the launch file gives a node `false`, which a parameter file replaces."""
+    given, setting = node.node.parameter(_PARAMETER), node.settings.get(_PARAMETER)
+    if given is None or setting is None or setting.span is given.span:
+        return False
+    return str(given.value).lower() == "false"
+
+
+def _against_launch(node: WiredNode) -> Finding:
+    """Return a finding of a node that gets `true` of its file, against the launch file."""
+    setting, given = node.settings[_PARAMETER], node.node.parameter(_PARAMETER)
+    first = next(it for it in node.node.parameters if isinstance(it, Parameter))
+    places = [(given.span, "the launch file gives it false")] if given is not None else []
+    return finding(
+        setting.span,
+        f"{node.label} has use_sim_time: true, though the launch file gives it false: "
+        f"{first.name}, a parameter of all nodes, stands before this file and lets the file count: "
+        "remove the line",
+        key=node.full_name,
+        related=[*places, (first.span, f"{first.name} is set for all nodes")],
+    )
 
 
 def _compares_time(node: WiredNode) -> bool:
@@ -87,7 +116,8 @@ def _is_given(node: WiredNode) -> bool:
 
 def _text(node: WiredNode) -> str | None:
     setting = node.settings.get(_PARAMETER)
-    return "false" if setting is None else setting.text
+    text = "false" if setting is None else setting.text
+    return text and text.lower()
 
 
 def _has_clock(wiring: Wiring) -> bool:
@@ -141,6 +171,27 @@ def _pair(simulated: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": True, "launch/rover.launch.py": None, "launch/state.launch.xml": launch}
 
 
+_IMPORTS = "from launch_ros.actions import Node\n"
+_MORE = """from launch_ros.actions import LoadComposableNodes, Node, SetParameter
+from launch_ros.descriptions import ComposableNode
+"""
+_GLOBAL = """LaunchDescription([
+        SetParameter("some_level", 1),
+        Node(package="robot_localization", executable="ekf_node", name="ekf_filter_node",
+             parameters=[os.path.join(HERE, "config", "ekf.yaml"), {"use_sim_time": False}]),
+        Node(package="nav2_amcl", executable="amcl", parameters=[{"use_sim_time": False}]),
+"""
+
+
+def _overruled(*replaced: tuple[str, str]) -> dict[str, object]:
+    """Return a launch without a clock whose file says other than the launch file."""
+    launch = {_HEAD: _GLOBAL, _IMPORTS: _MORE}
+    yaml = "ekf_filter_node:\n  ros__parameters:\n    use_sim_time: true  # ^ WIR005\n"
+    for old, new in replaced:
+        launch, yaml = {k: v.replace(old, new) for k, v in launch.items()}, yaml.replace(old, new)
+    return {"@bridge": "[]\n", "@launch": launch, "config/ekf.yaml": yaml}
+
+
 _README = "ros2 launch acme_rover_bringup state.launch.xml sim:=true use_sim_time:=true\n"
 
 
@@ -148,10 +199,6 @@ _CONTAINER = """LaunchDescription([
         SetParameter("use_sim_time", @),%
         LoadComposableNodes(target_container="nav", composable_node_descriptions=[
             ComposableNode(package="nav2_amcl", plugin="nav2_amcl::AmclNode", name="amcl")]),
-"""
-_IMPORTS = "from launch_ros.actions import Node\n"
-_MORE = """from launch_ros.actions import LoadComposableNodes, Node, SetParameter
-from launch_ros.descriptions import ComposableNode
 """
 
 
@@ -161,6 +208,9 @@ def _component(simulated: str, mark: str = "") -> dict[str, object]:
 
 
 GOOD = [
+    # The parameters of the launch file come after the file, and count.
+    _overruled(('        SetParameter("some_level", 1),\n', ""), ("  # ^ WIR005", "")),
+    _component('"True"'),
     _component("True"),
     _pair("false"),
     _pair("$(var sim)"),
@@ -171,6 +221,8 @@ GOOD = [
     {**_filter("other"), "@bridge": "[]\n"},
 ]
 BAD = [
+    _overruled(),
+    _component('"False"', _MARK),
     _component("False", _MARK),
     {
         **_filter("other"),
