@@ -105,6 +105,13 @@ MESHES = {
     "meshes/arm.dae": "<COLLADA/>",
     "urdf/a.urdf": "<mesh filename='meshes/arm.dae'/>",
 }
+CONFIGURED = {
+    "@ros2": True,
+    "CMakeLists.txt": "project(acme_arm_bringup)\nfind_package(ament_cmake_auto REQUIRED)\n"
+    "ament_auto_package(INSTALL_TO_SHARE launch urdf)\n",
+    "config/arm.yaml": "arm: 1\n",
+}
+READS_CONFIG = "Node(package='p', executable='e', parameters=[in_package('config', 'arm.yaml')]),"
 COPIES = {
     "CMakeLists.txt": None,
     "setup.py": """from glob import glob
@@ -388,6 +395,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("PKG003", {**HELD, SHEET: "# Rover\nsensor_config_1 has no lidar\n"}, "warning"),
     ("PKG003", {**HELD, SHEET: "# Rover\nconfiguration 12\n"}, "error"),
     ("PKG003", {"thumbnails/1.png": None}, "info"),
+    ("PKG008", CONFIGURED, "warning"),
+    ("PKG008", {**CONFIGURED, "@ros2": READS_CONFIG}, "error"),
     ("PKG008", LEFT, "info"),
     ("PKG008", {**LEFT, "launch/b.launch.py": "def generate_launch_description(): ..."}, "error"),
     ("SDF001", {"arm.urdf": ""}, "warning"),

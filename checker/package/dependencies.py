@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.finding import Place
+from checker.package.files_above import README, files_around
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
 from checker.package.released import distributions_with
@@ -210,15 +211,25 @@ def uses_in_build(package: Package) -> Iterator[Use]:
             yield Use(name, place, f"find_package({name} REQUIRED)", builds=True)
 
 
+_CLONED = re.compile(
+    r"\bgit\s{1,4}clone\s[^\n]{0,200}?([\w.-]{1,100}?)(?:\.git)?[\s`]{0,4}$", re.MULTILINE
+)
+"""The name of a repository at the end of a command: `git clone https://github.com/acme/arm.git`."""
+
+
 def former_names(package: Package, uses: Iterable[Use]) -> frozenset[str]:
     """Return names of packages that exist nowhere, and all of whose files this package has.
 
-    It was renamed, and still uses its own files by the name that it had.
+    It was renamed, and still uses its own files by the name that it had. None where a README tells
+    to clone several repositories: one of these may have the package, and copies of the files.
 
     Args:
         package: The package that uses them.
         uses: What it uses.
     """
+    cloned = {it for readme in files_around(package, README) for it in _CLONED.findall(readme.text)}
+    if len(cloned) > 1:
+        return frozenset()
     own: dict[str, bool] = {}
     for use in uses:
         name = use.package_name

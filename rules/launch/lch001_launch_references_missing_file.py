@@ -12,7 +12,8 @@ files of a node that has a parameter about saving, and for paths passed to a lau
 available, unless it starts Gazebo, this is a warning.
 
 A package that no ROS distribution has and package.xml does not declare, and of which every file
-that is used is in this package, is taken as the former name of this package.
+that is used is in this package, is taken as the former name of this package, unless a README tells
+to clone several repositories.
 
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
@@ -208,6 +209,8 @@ _OF_MOVEIT = {
     "config/kinematics.yaml": "{}\n",
     "config/joint_limits.yaml": "{}\n",
 }
+_FORMER = "os.path.join(get_package_share_directory('acme_arm'), 'config', 'arm.yaml')"
+_OF_FORMER_NAME = _STATE.replace("in_package('config', 'arm.yaml')", _FORMER)
 GOOD = [
     {"@ros2": True},
     {"@ros2": _WRITTEN},
@@ -229,7 +232,6 @@ ament_package()
             os.path.join(get_package_share_directory('nav2_bringup'), 'launch', 'x.launch.py'))),"""
     },
 ]
-_FORMER = "os.path.join(get_package_share_directory('acme_arm'), 'config', 'arm.yaml')"
 _COMPUTED = """from glob import glob
 from setuptools import setup
 
@@ -251,7 +253,7 @@ BAD = [
         **_OF_MOVEIT,
         "config/arm.srdf": None,
     },
-    {"@ros2": _STATE.replace("in_package('config', 'arm.yaml')", _FORMER) + "  # ^ LCH001"},
+    {"@ros2": f"{_OF_FORMER_NAME}  # ^ LCH001"},
     {"@ros2": f"{_WORLD}  # ^ LCH001", "CMakeLists.txt": None, "setup.py": _COMPUTED},
     {"@ros2": _SAVED},
     {"@ros2": "        Node(package='p', executable='e', parameters=['']),  # ^ LCH001"},

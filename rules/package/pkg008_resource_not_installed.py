@@ -1,10 +1,11 @@
 """A resource that CMakeLists.txt or setup.py does not install.
 
 The robot starts from the installed packages: a folder or model file that is not installed exists
-only on the author's machine. A folder with launch files of ROS 1 alone in a package of ROS 2 is an
-info. Thumbnails are not needed there: they are infos. So are meshes that no file names, such as
-backups in a folder `meshes/old` of those that are named. A setup.py that computes its `data_files`
-is not checked; if it names each folder, that is only an info.
+only on the author's machine. Of `config/`, `urdf/` and `worlds/` that is a warning, unless what a
+launch file starts by default needs a file there. A folder with launch files of ROS 1 alone in a
+package of ROS 2 is an info. Thumbnails are not needed there: they are infos. So are meshes that no
+file names, such as backups in a folder `meshes/old` of those that are named. A setup.py that
+computes its `data_files` is not checked; if it names each folder, that is only an info.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`; in setup.py, to `data_files`, one entry
 for each folder with the files in it: `glob("launch/*")` does not include files in subfolders.
@@ -14,13 +15,15 @@ ROS 2 documentation, "Developing a ROS 2 package": `ros2 launch` looks into the 
 
 import posixpath
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import fnmatch
 from itertools import islice
 
 from msgspec.structs import replace
 
 from checker.finding import Fix
+from checker.launch.ros2.graph import Ros2Launch
+from checker.launch.ros2.named_paths import NamedPath, named_paths
 from checker.launch.ros2.package_launch import is_left_from_ros1
 from checker.package.installed import USUAL_FOLDERS, installed_as
 from checker.package.kind import PackageKind
@@ -47,7 +50,7 @@ _LESS = {
     "worlds": Severity.WARNING,
     "thumbnails": Severity.INFO,
 }
-"""Lower severities for folders without which the robot starts."""
+"""Lower severities for folders without which the robot starts, unless a launch file needs one."""
 _MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf")
 _NAMING = (".urdf", ".xacro", ".sdf", ".world", ".py", ".xml", ".launch", ".yaml", ".yml")
 _CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
@@ -58,13 +61,16 @@ MODEL_FILES = ("model.sdf", "model.config")
 
 
 @rule("PKG008", "resource-not-installed", Severity.ERROR, Concern.PAPERWORK)
-def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
+def check(
+    package: Package, paperwork: Paperwork, context: Context, launch: Ros2Launch | None
+) -> Findings:
     """Compare the package's files with what the build file installs."""
+    uses = _needed_folders(package, launch)
     if not context.distro and package.kind in (PackageKind.PLUGIN, PackageKind.UNKNOWN):
         return
     build = paperwork.build
     if build is None:
-        yield from _by_setup(package)
+        yield from _by_setup(package, uses)
         return
     if build.faults:
         yield unchecked(f"CMakeLists.txt cannot be read completely: {build.faults[0].message}")
@@ -75,14 +81,15 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         if whole or _covers(installed, folder):
             continue
         message = f"folder {folder}/ is not installed"
-        severity, fix = _LESS.get(folder), _install_fix(build, "DIRECTORY", [folder])
+        severity = None if folder in uses else _LESS.get(folder)
+        fix = _install_fix(build, "DIRECTORY", [folder])
         if is_left_from_ros1(package, folder):
             message += ": it has only launch files of ROS 1; delete them, or write those of ROS 2"
             severity, fix = Severity.INFO, None
         elif _is_unnamed(package, folder):
             message += ", and no file names a mesh of it"
             severity, fix = Severity.INFO, None
-        yield _finding(build, message, severity, fix)
+        yield _finding(build, message, severity, fix, uses.get(folder))
     model_files = [path for path in MODEL_FILES if package.index.find(path)]
     if model_files and not whole and not any(_covers(installed, path) for path in model_files):
         message = f"neither of {' and '.join(model_files)} is installed"
@@ -99,7 +106,15 @@ def _filled_folders(package: Package) -> Iterator[str]:
             yield folder
 
 
-def _by_setup(package: Package) -> Findings:
+def _needed_folders(package: Package, launch: Ros2Launch | None) -> dict[str, NamedPath]:
+    """Return folders of which launch files need a file by default, each with the first use."""
+    graphs = launch.entries if launch is not None else ()
+    every = (named for graph in graphs for named in named_paths(graph) if named.needed)
+    own = [it for it in every if it.path.package == package.declared_name]
+    return {it.path.path.partition("/")[0]: it for it in reversed(own)}
+
+
+def _by_setup(package: Package, uses: Mapping[str, NamedPath]) -> Findings:
     """Compare the package's files with `data_files` of setup.py."""
     setup = package.setup
     if setup is None:
@@ -114,11 +129,12 @@ def _by_setup(package: Package) -> Findings:
     for folder in _filled_folders(package):
         if not _covers(origins, folder):
             message = f"folder {folder}/ is not installed: data_files names no file of it"
-            severity = _LESS.get(folder)
+            severity = None if folder in uses else _LESS.get(folder)
             if _is_unnamed(package, folder):
                 message += ", and no file names a mesh of it"
                 severity = Severity.INFO
-            yield finding(setup, message, severity=severity, key=message)
+            related = _need(uses.get(folder))
+            yield finding(setup, message, severity=severity, key=message, related=related)
             continue
         left = [*_left_meshes(package, folder)]
         copies = [path for path in left if _is_unused_copy(package, path)]
@@ -167,9 +183,19 @@ def _is_unused_copy(package: Package, path: str) -> bool:
     )
 
 
-def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix | None) -> Finding:
+def _finding(
+    build: CMakeFile,
+    message: str,
+    severity: Severity | None,
+    fix: Fix | None,
+    use: NamedPath | None = None,
+) -> Finding:
     where = build.installs[0].span if build.installs else build.source.whole()
-    return finding(where, message, severity=severity, key=message, fix=fix)
+    return finding(where, message, severity=severity, key=message, fix=fix, related=_need(use))
+
+
+def _need(use: NamedPath | None) -> list[tuple[NamedPath, str]]:
+    return [(use, "a launch file needs it here")] if use is not None else []
 
 
 def _install_fix(build: CMakeFile, kind: str, paths: Sequence[str]) -> Fix | None:

@@ -13,18 +13,20 @@ from rules.references import ref002_file_not_found as ref002
 
 
 @pytest.mark.parametrize(
-    ("named", "declared", "is_reported"),
+    ("named", "declared", "cloned", "is_reported"),
     [
-        ("old_arm/shapes", "", True),
-        ("old_arm/meshes", "", False),  # this package has no such file
-        ("old_arm/shapes", "<exec_depend>old_arm</exec_depend>", False),
-        ("ur_description/shapes", "", False),  # ROS distributions have it
+        ("old_arm/shapes", "", ("arm",), True),
+        ("old_arm/shapes", "", ("arm", "arm_parts"), False),  # one of them may have it
+        ("old_arm/meshes", "", (), False),  # this package has no such file
+        ("old_arm/shapes", "<exec_depend>old_arm</exec_depend>", (), False),
+        ("ur_description/shapes", "", (), False),  # ROS distributions have it
     ],
 )
 def test_only_a_package_that_exists_nowhere_is_reported(
-    named: str, declared: str, is_reported: bool, tmp_path: Path
+    named: str, declared: str, cloned: tuple[str, ...], is_reported: bool, tmp_path: Path
 ) -> None:
-    arm = ref002._ARM
+    readme = "".join(f"    git clone https://example.org/acme/{name}.git\n" for name in cloned)
+    arm = {**ref002._ARM, "README.md": readme}
     manifest = str(arm["package.xml"]).replace("<export>", f"{declared}<export>")
     urdf = str(arm["urdf/arm.urdf"]).replace("acme_arm/shapes", named)
     package = write_example({**arm, "package.xml": manifest, "urdf/arm.urdf": urdf}, tmp_path)
