@@ -38,6 +38,7 @@ def check(robot: Robot) -> Findings:
                 f"{plugin.class_name} publishes odometry on {topic.value}, as {first.class_name} "
                 "already does",
                 related=[(first, "publishes the same topic")],
+                covered_by=("PLG015",),
             )
 
 
