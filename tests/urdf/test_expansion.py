@@ -247,6 +247,13 @@ ELBOW = (
     '<child link="arm"/></joint>'
 )
 DANGLING = '<joint name="j" type="fixed"><parent link="base"/><child link="palm"/></joint>'
+FIXED = (
+    '<link name="@"/><joint name="of_@" type="fixed"><parent link="$"/><child link="@"/></joint>'
+)
+ON_LENS = "".join(
+    FIXED.replace("@", child).replace("$", parent)
+    for child, parent in [("rim", "hood"), ("hood", "lens")]
+)
 
 
 @pytest.mark.parametrize(
@@ -259,12 +266,15 @@ DANGLING = '<joint name="j" type="fixed"><parent link="base"/><child link="palm"
         ("", []),
         (CALLED.replace("@", "true") + ELBOW, ["base", "arm"]),
         ('<link name="lid"><xacro:driver/></link>' + ELBOW, []),
-        (CALLED.replace("@", "true") + ELBOW + DANGLING, []),
+        (CALLED.replace("@", "true") + ELBOW + DANGLING, ["base", "arm"]),
+        (CALLED.replace("@", "true") + ELBOW + ON_LENS, ["base", "arm"]),
+        (CALLED.replace("@", "true") + ON_LENS + ELBOW.replace('"base"', '"hood"'), []),
         (CALLED.replace("@", "true") + ELBOW + '<gazebo reference="lens"/>', ["base", "arm"]),
     ],
     ids=[
         *("macro is not called", "called", "link is there", "property is there", "may be links"),
-        *("called beside a robot", "called in a link", "called for a link of a joint"),
+        *("called beside a robot", "called in a link", "called for a child", "called for parents"),
+        "called for all that moves",
         "called for a link of an extension",
     ],
 )

@@ -2,8 +2,8 @@
 
 An included file of macros alone is not needed when none of them is called. Nothing else states
 what is in the file: a call of a macro that no other file defines. One at the top of the robot adds
-whole links, such as a camera: the rest, if joints of its own move, is judged without them and
-without what `<gazebo reference>` adds to them.
+whole links, such as a camera: the rest, if joints of its own move, is judged without them, without
+what `<gazebo reference>` adds to them, and without links that joints connect to them alone.
 """
 
 from __future__ import annotations
@@ -49,21 +49,43 @@ def skip(call: Any, defined: Collection[str]) -> str:
     return name
 
 
-def is_robot_without(root: Any, skipped: Collection[Any]) -> bool:
-    """Return whether a robot with movable joints is left without skipped calls, none in a link."""
-    types = (joint.getAttribute("type") for joint in root.getElementsByTagName("joint"))
-    return all(call.parentNode is root for call in skipped) and bool({*types} - {"", "fixed"})
+def reduce_to_robot(root: Any, skipped: Collection[Any]) -> bool:
+    """Remove skipped calls, and what only their links can hold.
 
-
-def without_extensions(root: Any, skipped: Collection[Any]) -> None:
-    """Remove skipped calls, and the extensions of links that only they can add."""
+    Returns:
+        Whether a robot with movable joints is left, and no call was in a link.
+    """
+    if any(call.parentNode is not root for call in skipped):
+        return False
     for call in skipped:
         root.removeChild(call)
-    names = {it.getAttribute("name") for it in root.childNodes if it.nodeType == it.ELEMENT_NODE}
-    for extension in root.getElementsByTagName("gazebo") if skipped else ():
-        reference = extension.getAttribute("reference")
-        if extension.parentNode is root and reference and reference not in names:
+    while any(_remove(root, joint) for joint in _parts(root, "joint")):
+        pass  # a link that was removed may have been the parent of others
+    names = {part.getAttribute("name") for part in _parts(root)}
+    for extension in _parts(root, "gazebo"):
+        if extension.getAttribute("reference") not in names | {""}:
             root.removeChild(extension)
+    types = {joint.getAttribute("type") for joint in _parts(root, "joint")}
+    return bool(types - {"", "fixed"})
+
+
+def _remove(root: Any, joint: Any) -> bool:
+    """Remove a joint at a link that is not there, and its child; return whether it was one."""
+    links = {link.getAttribute("name"): link for link in _parts(root, "link")}
+    ends = {end.tagName: end.getAttribute("link") for end in _parts(joint)}
+    parent, child = ends.get("parent", ""), ends.get("child", "")
+    if {parent, child} <= links.keys() | {""}:
+        return False
+    root.removeChild(joint)
+    if parent not in links and child in links:
+        root.removeChild(links[child])
+    return True
+
+
+def _parts(parent: Any, *tags: str) -> list[Any]:
+    """Return the elements in another one that have one of these tags; all if none is given."""
+    elements = (child for child in parent.childNodes if child.nodeType == child.ELEMENT_NODE)
+    return [element for element in elements if not tags or element.tagName in tags]
 
 
 def is_closed(root: Any) -> bool:
@@ -71,15 +93,9 @@ def is_closed(root: Any) -> bool:
 
     So are joints that others mimic; those of `<ros2_control>` may be misspelt.
     """
-    parts = [child for child in root.childNodes if child.nodeType == child.ELEMENT_NODE]
-    names = {it.getAttribute("name") for it in parts if it.tagName in ("link", "joint")}
-    ends = {
-        end.getAttribute("link")
-        for joint in parts
-        if joint.tagName == "joint"
-        for end in joint.childNodes
-        if end.nodeType == end.ELEMENT_NODE and end.tagName in ("parent", "child")
-    }
-    references = {it.getAttribute("reference") for it in parts if it.tagName == "gazebo"}
+    names = {part.getAttribute("name") for part in _parts(root, "link", "joint")}
+    joints = _parts(root, "joint")
+    ends = {end.getAttribute("link") for it in joints for end in _parts(it, "parent", "child")}
+    references = {tag.getAttribute("reference") for tag in _parts(root, "gazebo")}
     leaders = {mimic.getAttribute("joint") for mimic in root.getElementsByTagName("mimic")}
     return bool(names) and ends | references | leaders <= names | {""}

@@ -36,9 +36,8 @@ from checker.formats.xacro.needless_includes import (
     SKIPPED,
     calls_another,
     is_closed,
-    is_robot_without,
+    reduce_to_robot,
     skip,
-    without_extensions,
 )
 from checker.formats.xacro.symbols import EvalNames, global_symbols, text_value
 from checker.formats.xacro.yaml_values import read
@@ -177,9 +176,8 @@ class _Expansion:
         xacro.process_doc(document, mappings=args, verbosity=0)
         root = document.documentElement
         skipped = root.getElementsByTagName(SKIPPED) if self._skipped else []
-        if skipped and not is_robot_without(root, skipped):
+        if skipped and not reduce_to_robot(root, skipped):
             return _unavailable(self.left[0])
-        without_extensions(root, skipped)
         text = root.toxml()
         if len(text) > SIZE_LIMIT:
             return self.fault("limit", f"it expands to more than {SIZE_LIMIT / 1e6:g} MB")
