@@ -3,8 +3,10 @@
 A driven joint with a limit of zero does not move: its plugin cannot apply a force, or reach any
 speed. The limiter of ros2_control, enabled by default from Kilted on, does the same for joints with
 a command interface. DART, the default physics engine of Gazebo Sim, locks a joint whose velocity
-limit is zero, including passive wheels. The SolidWorks exporter writes `effort="0" velocity="0"` by
-default.
+limit is zero, including passive wheels. gazebo_ros_control of ROS 1 cuts the efforts, speeds and
+steps of its controllers to the limits of the URDF, zero included; the drive plugins of Gazebo
+Classic turn their wheels with a motor of the physics engine, past these limits. The SolidWorks
+exporter writes `effort="0" velocity="0"` by default.
 
 With a limit of 1e9 N·m a wheel never stalls on any slope, and one collision can throw the robot
 away. Without a limit, the rules cannot check whether the motor is strong enough. Rotors need none:
@@ -13,13 +15,16 @@ their plugin limits the thrust.
 Fix: write the motor's stall torque (N·m) as `effort` and its no-load speed (rad/s) as `velocity`,
 both after the gear.
 Source: SDFormat specification, axis/limit: "-1" and no value mean unlimited; gz-physics 9,
-dartsim/src/SDFFeatures.cc: zero is a limit.
+dartsim/src/SDFFeatures.cc: zero is a limit. gazebo-classic 11, `Joint::CheckAndTruncateForce`: so
+it is there, and a negative limit is none; ros_control, joint_limits_interface: saturation handles.
 """
 
 import math
 from collections.abc import Iterator
 
+from checker.formats.urdf.description import motor_interfaces
 from checker.model.components import Axis, Joint, Plugin
+from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.ros.ros2_control.distributions import distribution_of, is_from, is_of_gazebo
 from checker.ros.ros2_control.hardware import Hardware, read_hardware
@@ -30,6 +35,7 @@ _MOTORS = (
     *("JointController", "JointPositionController", "JointTrajectoryController"),
 )
 """Systems of Gazebo that keep to the limits of a joint."""
+_MANAGER = "gazebo_ros_control"
 _ROTORS = ("MulticopterMotorModel", "MulticopterVelocityControl", "Thruster")
 
 
@@ -57,17 +63,19 @@ def check(
         yield unchecked(robot.unread_plugins)
     highest = {"effort": highest_effort, "velocity": highest_velocity}
     commanded, stated = _commanded_joints(robot), robot.conventions.states_devices
+    managed = _managed_joints(robot)
     for joint in robot.joints:
         driver = robot.driven_joints.get(joint.scoped_name)
         for axis in joint.axes:
             yield from _too_high(joint, axis, highest)
+            yield from _cut_to_zero(joint, axis, managed.get(joint.name.value, set()))
             if driver is not None and driver.class_name not in _ROTORS:
                 yield from _missing(joint, axis)
                 yield from _zero(joint, axis, driver)
             elif (hardware := commanded.get(joint.scoped_name)) is not None:
                 yield from _missing(joint, axis)
                 yield from _zero_limits(joint, axis, hardware, context)
-            elif driver is None and not stated and not joint.immovable:
+            elif driver is None and not (stated or joint.immovable or joint.name.value in managed):
                 held = context.is_gazebo_sim and robot.is_for_gazebo
                 yield from _still(joint, axis, held=held)
 
@@ -91,6 +99,25 @@ def _zero(joint: Joint, axis: Axis, driver: Plugin) -> Iterator[Finding]:
                 f"joint {joint.name.value!r} has the {kind} limit 0, so {driver.class_name} cannot "
                 "move it",
                 severity=Severity.ERROR,
+                key="zero",
+            )
+
+
+def _managed_joints(robot: Robot) -> dict[str, set[str]]:
+    """Return the joints that gazebo_ros_control of ROS 1 commands, each with its interfaces."""
+    loaded = any(library_stem(plugin.filename.value) == _MANAGER for plugin in robot.plugins)
+    return motor_interfaces(robot) if loaded else {}
+
+
+def _cut_to_zero(joint: Joint, axis: Axis, interfaces: set[str]) -> Iterator[Finding]:
+    """Report limits of zero to which gazebo_ros_control cuts what controllers command."""
+    for kind, limit in (("effort", axis.effort), ("velocity", axis.velocity)):
+        cut = interfaces if kind == "velocity" else interfaces & {"effort", "velocity"}
+        if limit.stated and limit.value == 0.0 and cut:
+            yield finding(
+                limit,
+                f"joint {joint.name.value!r} has the {kind} limit 0, to which {_MANAGER} cuts what "
+                "controllers command, so they cannot move it",
                 key="zero",
             )
 
@@ -197,6 +224,29 @@ def _controlled(
     }
 
 
+def _managed(limit: str, interface: str = "Effort") -> dict[str, str]:
+    """Return a wheel of ros_control in ROS 1, which a drive plugin turns as well."""
+    wheel = f"""
+<link name="hub"/>
+<joint name="spin" type="continuous">
+  <parent link="upper_arm"/><child link="hub"/>
+  {limit}
+</joint>
+<transmission name="t">
+  <type>transmission_interface/SimpleTransmission</type>
+  <joint name="spin">
+    <hardwareInterface>hardware_interface/{interface}JointInterface</hardwareInterface>
+  </joint>
+  <actuator name="motor"/>
+</transmission>
+<gazebo>
+  <plugin name="control" filename="libgazebo_ros_control.so"/>
+  <plugin name="drive" filename="libgazebo_ros_diff_drive.so"><leftJoint>spin</leftJoint></plugin>
+</gazebo>
+"""
+    return {"@urdf": wheel, "@profile": "urdf"}
+
+
 _STEADY = '<limit lower="-1" upper="1" effort="5" velocity="1"/>'
 _HELD = '<limit lower="-1" upper="1" effort="5" velocity="0"/>'
 
@@ -214,6 +264,8 @@ def _passive(velocity: str, mark: str = "") -> dict[str, str]:
 
 
 GOOD = [
+    _managed('<limit effort="2" velocity="30"/>'),
+    _managed('<limit effort="0" velocity="30"/>', "Position"),
     _passive("10"),
     _controlled('<limit lower="0" upper="0" effort="5" velocity="0"/>', joint="shoulder"),
     _driven("<limit><effort>20</effort><velocity>3</velocity></limit>"),
@@ -223,6 +275,8 @@ GOOD = [
     _controlled('<limit lower="-1" upper="1" effort="0" velocity="1"/>'),
 ]
 BAD = [
+    _managed('<limit effort="0.0" velocity="0.0"/>  <!-- ^ KIN007 --><!-- ^ KIN007 -->'),
+    _managed('<limit effort="0" velocity="30"/>  <!-- ^ KIN007 -->'),
     _passive("0", "  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>1e9</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>20</effort><velocity>50000</velocity></limit>  <!-- ^ KIN007 -->"),
