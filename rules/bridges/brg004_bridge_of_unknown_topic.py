@@ -26,6 +26,7 @@ from checker.package.package import Package
 from checker.ros.simulated_topics import SimulatedTopic
 from checker.ros.simulation import Simulation, Simulations
 from checker.ros.spawned import SpawnedRobot
+from checker.ros.topics import comparable
 from checker.ros.wiring.joint_states import JOINT_STATE
 from checker.ros.wiring.wiring import Wiring, Wirings
 from checker.rule import Concern, Findings, Severity, finding, rule
@@ -162,7 +163,7 @@ def _lacking(entry: BridgeEntry) -> str:
     """Return the system that has such a topic, if only one does: the robot lacks it."""
     last = posixpath.basename(entry.gz_topic)
     systems = [
-        f"{system} would have {_named(topic)}"
+        f"{system} would have {_named(topic, entry)}"
         for system, topics in table("simulated_topics")["plugins"].items()
         for topic, _, messages, _ in topics
         if posixpath.basename(topic) == last and entry.gz_name in messages
@@ -170,8 +171,10 @@ def _lacking(entry: BridgeEntry) -> str:
     return f"; the system {systems[0]}" if len(systems) == 1 else ""
 
 
-def _named(topic: str) -> str:
+def _named(topic: str, entry: BridgeEntry) -> str:
     """Return a topic with W for the name of the world and M for that of the model."""
+    if comparable(topic) == comparable(entry.gz_topic):
+        return "it"
     return topic.replace("/world/*", "/world/W").replace("/model/*", "/model/M")
 
 
