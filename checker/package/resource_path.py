@@ -144,14 +144,21 @@ def mentions(package: Package, *, classic: bool = False) -> Iterator[Span]:
     """Yield where the texts of a package name the path, except its hooks.
 
     Launch files set it; documents, scripts and container files tell users to do so. So do files
-    around the package that set the environment of a workspace.
+    around the package that set the environment of a workspace. Code in a comment does neither.
     """
     known = frozenset(hooks(package))
     files = (it.path for it in package.index.with_suffix(*_TEXTS) if it.path not in known)
     own = (source for source in map(package.read, files) if isinstance(source, SourceText))
     for source in chain(own, *files_above(package, _ENVIRONMENT)):
         for match in _variables(classic).finditer(source.text):
-            yield Span(source, *match.span())
+            if not _is_commented_out(source, match.start()):
+                yield Span(source, *match.span())
+
+
+def _is_commented_out(source: SourceText, at: int) -> bool:
+    """Return whether a name is a string of Python in a comment: a call that was switched off."""
+    line = source.text[source.text.rfind("\n", 0, at) + 1 : at]
+    return source.file.endswith(".py") and line.lstrip().startswith("#") and line[-1] in "'\""
 
 
 def plugin_folders(package: Package) -> frozenset[str] | None:

@@ -1,12 +1,14 @@
-"""Gazebo does not find the models that a world includes from the workspace.
+"""Gazebo does not find the models that a world or a robot names from the workspace.
 
 `<uri>model://shelf</uri>` is looked up below the folders of Gazebo's search path. A model in the
 workspace is found only if its parent folder is one of them: else Gazebo prints an error, or asks an
-online database, and the model is missing; where it is the floor, the robot falls.
+online database, and the model is missing; where it is the floor, the robot falls. A robot whose
+meshes are `model://rover/meshes/…` has no shapes then.
 
-It is reported of a world that a launch file names, if no package.xml and no environment hook puts
-the folder on the path, and no launch file, document, script or container file of the workspace
-names the path at all. Ground, sun and other models that are not in the workspace are not judged.
+It is reported of a world that a launch file names, and of a robot that it spawns, if no package.xml
+and no environment hook puts the folder on the path, and no launch file, document, script or
+container file of the workspace names the path at all. Ground, sun and other models that are not in
+the workspace are not judged; LCH012 reports meshes of packages.
 
 Fix: write `<gazebo_ros gazebo_model_path="${prefix}/models"/>` into `<export>` of the package with
 the models, and install the folder; or set `GAZEBO_MODEL_PATH` (in Gazebo Sim
@@ -21,20 +23,22 @@ from collections.abc import Iterator, Sequence
 
 from checker.package.package import Package
 from checker.package.resource_path import mentions, searched_folders
+from checker.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument
 
 _WORLD = re.compile(r"[\w-]{1,80}\.(?:world|sdf)\b")
 _MODEL = re.compile(r"model://([^/\s]{1,100})/?\Z")
+_MESH = re.compile(r"model://([^/\s]{1,100})/.")
 _CONFIG = "model.config"
 
 
 @rule("LCH024", "models-not-on-resource-path", Severity.WARNING, Concern.INTERFACE)
-def check(package: Package) -> Findings:
-    """Report each folder of models once, at the launch file that names the world."""
+def check(package: Package, simulations: Simulations | None) -> Findings:
+    """Report each folder of models once, at the launch file that names the world or the robot."""
     every = (package, *package.other_packages)
-    named = [*_named_worlds(package, every)]
+    named = [*_of_worlds(package, every), *_of_robots(package, simulations)]
     folders = _folders_of_models(every) if named else {}
     if not folders or any(_is_named(each) for each in every):
         return
@@ -42,18 +46,38 @@ def check(package: Package) -> Findings:
     if not all(folder.known for folder in path):
         return
     reported: set[str] = set()
-    for place, document in named:
-        for model in _included(document):
-            folder = folders.get(model)
-            if folder is None or folder in reported or folder in {it.folder for it in path}:
-                continue
-            reported.add(folder)
-            yield finding(
-                place,
-                f"Gazebo does not find model://{model}, which {place.text} includes: nothing puts "
-                f"{folder} on its search path",
-                key=folder,
-            )
+    for place, model, what in named:
+        folder = folders.get(model)
+        if folder is None or folder in reported or folder in {it.folder for it in path}:
+            continue
+        reported.add(folder)
+        yield finding(
+            place,
+            f"Gazebo does not find model://{model}{what}: nothing puts {folder} on its search path",
+            key=folder,
+        )
+
+
+_Named = tuple[Span, str, str]
+"""Where a model is named, its name, and what names it, as a clause."""
+
+
+def _of_worlds(package: Package, every: Sequence[Package]) -> Iterator[_Named]:
+    for place, document in _named_worlds(package, every):
+        yield from ((place, it, f", which {place.text} includes") for it in _included(document))
+
+
+def _of_robots(package: Package, simulations: Simulations | None) -> Iterator[_Named]:
+    """Yield the models whose files are shapes of robots that launch files spawn."""
+    for simulation in simulations.launched if simulations is not None else ():
+        for spawned in (*simulation.robots, *simulation.classic_robots):
+            uris = [it.geometry.uri for it in spawned.robot.shapes()]
+            found = (_MESH.match(it.value) for it in uris if it is not None)
+            for model in dict.fromkeys(it[1] for it in found if it is not None):
+                holder = package.named(model)
+                if holder is None or not holder.exists("package.xml"):
+                    robot = spawned.robot.name.value
+                    yield spawned.node.span, model, f", so that robot {robot!r} has no such shapes"
 
 
 def _is_named(package: Package) -> bool:
@@ -119,10 +143,30 @@ def _hall(**more: str) -> dict[str, object]:
     }
 
 
+_CREATE = 'Node(package="ros_gz_sim", executable="create",'
+_ROVER = {
+    "@bridge": True,
+    "urdf/rover.urdf": """<robot name="rover">
+  <link name="base_link">
+    <visual><geometry><mesh filename="model://body/meshes/base.dae"/></geometry></visual>
+  </link>
+</robot>
+""",
+    "models/body/model.config": "<model><name>body</name></model>",
+    "models/body/meshes/base.dae": "<COLLADA/>",
+}
 GOOD = [
+    {**_ROVER, "README.md": "export GZ_SIM_RESOURCE_PATH=$PWD/models\n"},
     _hall(package__xml=_EXPORT),
     _hall(README__md="export GAZEBO_MODEL_PATH=$PWD/models"),
     _hall(start__sh="export GZ_SIM_RESOURCE_PATH=models"),
     {**_hall(), "models/shelf/model.config": None},
 ]
-BAD = [{**_hall(), "@reported": ["launch/arm.launch.py:20"]}]
+BAD = [
+    {**_ROVER, "@launch": {_CREATE: f"{_CREATE}  # ^ LCH024"}},
+    {**_hall(), "@reported": ["launch/arm.launch.py:20"]},
+    {
+        **_hall(start__py="# set('GAZEBO_MODEL_PATH', models)"),
+        "@reported": ["launch/arm.launch.py:20"],
+    },
+]
