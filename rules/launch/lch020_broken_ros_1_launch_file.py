@@ -6,25 +6,27 @@ declare, or lacks one that it requires, where two nodes get one name with the de
 also through an include, and where the file of a description or of parameters does not exist (a
 warning if its path depends on an arg, which may be given). A node whose package has no program of
 its `type` does not start, and roslaunch goes on without it; that CMakeLists.txt installs a script
-does not help if the source has none. Programs without the ending `.py` are only reported if the
-package has one of nearly the same name: CMake may build them. Packages of ROS 2 are not checked.
+does not help if the source has none, nor that it builds a library of this name. `state_publisher`
+is not in Noetic any more. Programs without the ending `.py` are only reported if the package has
+one of nearly the same name: CMake may build them. Packages of ROS 2 are not checked.
 
 Fix: correct the path, the name of the arg or the `type`; pass an arg with
 `<arg name="…" value="…"/>` inside the include.
 Source: roslaunch XML specification, `<include>`, `<arg>` and `<node>`; roslaunch, `add_node`;
-roslib, `find_node`.
+roslib, `find_node`; robot_state_publisher 1.15, changelog.
 """
 
 import posixpath
 import re
 from collections.abc import Iterable, Iterator
-from itertools import chain
+from itertools import chain, pairwise
 
 from checker.base.words import Suggestions
 from checker.launch.ros1.graph import LaunchFault, LaunchFaultKind, Node
 from checker.launch.ros1.package_launch import LaunchEntries
 from checker.launch.ros1.substitution import is_known
 from checker.launch.ros2.package_launch import is_ros2_only
+from checker.package.distribution_sign import ros_1_sign
 from checker.package.installed import GENERATES
 from checker.package.kind import PackageKind
 from checker.package.package import Package
@@ -52,6 +54,8 @@ _OF_ITS_NAME = frozenset(
     }
 )
 """Released packages whose program has the name of the package."""
+_REMOVED = frozenset({("robot_state_publisher", "state_publisher")})
+"""Programs that Noetic does not have any more."""
 
 
 @rule("LCH020", "broken-ros-1-launch-file", Severity.ERROR, Concern.INTERFACE)
@@ -73,8 +77,12 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
                 yield finding(missing, missing.message, key=missing.message, severity=severity)
     for entry in launch.entries:
         yield from _of_one_name(entry.graph.nodes)
+    sign = ros_1_sign(package)
     for node in launch.graph.nodes:
-        yield from _without_program(package, node)
+        if sign is not None and sign.distro == "noetic" and (node.package, node.type) in _REMOVED:
+            yield _not_started(node, node.package)
+        else:
+            yield from _without_program(package, node)
 
 
 def _may_be_given(package: Package, fault: LaunchFault) -> bool:
@@ -113,7 +121,10 @@ def _without_program(package: Package, node: Node) -> Iterator[Finding]:
         return
     files = {posixpath.basename(file.path) for file in holder.index.files}
     build = _build_text(holder)
-    is_named = node.type in _WORD.findall(build) and not _installs_script(holder, node.type)
+    words = _WORD.findall(build)
+    made = {(kind, name) for kind, name in pairwise(words) if name == node.type}
+    is_library = ("add_library", node.type) in made and ("add_executable", node.type) not in made
+    is_named = node.type in words and not is_library and not _installs_script(holder, node.type)
     if node.type in files or is_named:
         return
     is_script = node.type.endswith(".py")
@@ -121,7 +132,7 @@ def _without_program(package: Package, node: Node) -> Iterator[Finding]:
         scripts = {_PROGRAM.sub("", file): file for file in files if _PROGRAM.search(file)}
         meant = Suggestions((*scripts, *scripts.values())).closest(node.type) or ""
         near = scripts.get(node.type) or scripts.get(meant, meant)
-        if not near and not is_script:
+        if not (near or is_script or is_library):
             return
         yield _not_started(node, near)
 
@@ -178,6 +189,7 @@ def _two(second: str, mark: str = "", around: str = "") -> dict[str, object]:
 
 
 _MARK = "  <!-- ^ LCH020 -->"
+_BUILD_OF = "project(acme_arm_description)\n{}(follower src/follower.cpp)\n"
 _ARM = '<arg name="arm" value="1"/>'
 _LOAD = "$(find acme_arm_bringup)/urdf/$(arg model).xacro"
 _BRINGUP = {
@@ -193,6 +205,7 @@ GOOD = [
     _node("planner"),
     _node("wacth.py", package="acme_tools"),
     _node("state_publisher", package="robot_state_publisher"),
+    {**_node("follower"), "CMakeLists.txt": _BUILD_OF.format("add_executable")},
     _launch('<node name="watch" pkg="acme_arm_description" type="wacth.py" if="false"/>'),
     _two(' ns="arm"'),
     _two(' if="false"'),
@@ -210,6 +223,11 @@ BAD = [
         **_node("follow.py", _MARK),
         "CMakeLists.txt": "project(acme_arm_description)\n"
         "install(PROGRAMS scripts/follow.py DESTINATION bin)\n",
+    },
+    {**_node("follower", _MARK), "CMakeLists.txt": _BUILD_OF.format("add_library")},
+    {
+        **_node("state_publisher", _MARK, package="robot_state_publisher"),
+        "README.md": "# Arm of ROS Noetic\n",
     },
     _launch(f'<param name="rate" value="$(arg rate)"/>{_MARK}'),
     _two("", _MARK),
