@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from checker.base.record import Record
+from checker.model.components import Visual
 from checker.model.robot import Robot
 from checker.source.text import Located
 
@@ -12,7 +13,8 @@ class NamedFiles(Record, eq=False):
 
     Attributes:
         uris: URIs of its meshes and textures; those of material scripts are left out.
-        meshes: Those of meshes among them.
+        meshes: Those of meshes among them without which it does not work; of scenery, those of
+            collisions: Gazebo reports one that is only seen, and runs.
         includes: URIs of models that it includes and that are not available.
         unloaded: That no launch file loads it, as a clause, where one loads another; else empty.
     """
@@ -23,8 +25,15 @@ class NamedFiles(Record, eq=False):
     unloaded: str = ""
 
 
-def files_of(robot: Robot) -> NamedFiles:
-    """Return the files that a model names."""
-    named = (shape.geometry.uri for shape in robot.shapes())
-    meshes = frozenset(uri for uri in named if uri is not None)
+def files_of(robot: Robot, *, in_world: bool = False) -> NamedFiles:
+    """Return the files that a model names.
+
+    Args:
+        robot: The model.
+        in_world: Whether it is one of a world, where what only lies there is scenery.
+    """
+    is_scenery = in_world and not (robot.joints or robot.sensors or robot.all_plugins)
+    named = [(it, uri) for it in robot.shapes() if (uri := it.geometry.uri) is not None]
+    touching = {uri.value for shape, uri in named if not isinstance(shape, Visual)}
+    meshes = frozenset(uri for _, uri in named if not is_scenery or uri.value in touching)
     return NamedFiles(robot.file_uris, meshes, robot.unresolved_includes, robot.unloaded)

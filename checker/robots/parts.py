@@ -158,9 +158,11 @@ def named_files(
     content: Content | NotAvailable,
 ) -> tuple[NamedFiles, ...] | NotAvailable:
     """Return the files that the robots name, and those of the static models of a world."""
-    of_robots = () if isinstance(robots, NotAvailable) else tuple(map(files_of, robots))
+    in_world = package.kind is PackageKind.WORLD
+    known = () if isinstance(robots, NotAvailable) else robots
+    of_robots = (files_of(it, in_world=in_world) for it in known)
     models = () if isinstance(content, NotAvailable) else content.robots
-    scenery = (it for it in models if package.kind is PackageKind.WORLD and it.is_static)
+    scenery = (it for it in models if in_world and it.is_static)
     files = (*of_robots, *(_of_scenery(package, model) for model in scenery))
     return robots if isinstance(robots, NotAvailable) and not files else files
 
@@ -171,7 +173,7 @@ def _of_scenery(package: Package, model: Robot) -> NamedFiles:
     The world may get an absent model from Fuel, or from a folder of the user's: as with includes,
     nothing is said about its files.
     """
-    files = files_of(model)
+    files = files_of(model, in_world=True)
     return replace(files, uris=tuple(it for it in files.uris if not _is_of_absent(package, it)))
 
 

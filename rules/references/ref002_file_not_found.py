@@ -2,7 +2,9 @@
 
 The part is invisible, or has no collision and falls through the ground. Names must match exactly,
 as on the machines that run the simulation: `Wheel.DAE` is not `wheel.dae`. Without a texture the
-part is there and has another colour: this is a warning.
+part is there and has another colour: this is a warning. So is a mesh that is only seen of a model
+in a world that has no joints, sensors or plugins. Gazebo Classic does not read the textures of
+`<pbr>`.
 
 `package://` of a package that does not exist finds nothing, even if this package has the file: the
 name is a former one, or a slip. It is reported if package.xml does not declare that package, no
@@ -54,6 +56,7 @@ from checker.package.uris import (
 )
 from checker.rule import (
     Concern,
+    Context,
     Finding,
     Findings,
     Safety,
@@ -71,10 +74,12 @@ _SDF = (".sdf", ".world")
 
 
 @rule("REF002", "file-not-found", Severity.ERROR, Concern.ROBOT)
-def check(package: Package, files: NamedFiles, paperwork: Paperwork) -> Findings:
+def check(package: Package, files: NamedFiles, paperwork: Paperwork, context: Context) -> Findings:
     """Report URIs that lead to no file."""
     misnamed = _former_names(package, paperwork, files.uris)
     for uri in files.uris:
+        if context.is_classic and "/pbr/" in uri.span.element:
+            continue
         path = path_behind(package, Robot.folder_of(uri), uri.value)
         if isinstance(path, Unknown):
             if path.package in misnamed:
@@ -254,6 +259,14 @@ _BELOW_MODELS: dict[str, object] = {
 _VISUAL = """
 <visual name="v"><geometry><mesh><uri>model://shapes/arm.stl</uri>{}</mesh></geometry></visual>
 """
+_PAINTED = """
+<visual name="v">
+  <geometry><box><size>1 1 1</size></box></geometry>
+  <material><pbr><metal>
+    <albedo_map>materials/textures/paint.png</albedo_map>@
+  </metal></pbr></material>
+</visual>
+"""
 _FORMER = _ROBOT.replace("acme_arm/", "old_arm/")
 GOOD = [
     {
@@ -261,6 +274,7 @@ GOOD = [
         "@fragment": _VISUAL.format(""),
         "README.md": "export GAZEBO_MODEL_PATH=src/acme_arm/models\n",
     },
+    {"@fragment": _PAINTED.replace("@", ""), "@profile": "gazebo-classic"},
     _ARM,
     {**_ARM, "CMakeLists.txt": _BUILD.replace("urdf shapes", "${FOLDERS}")},
     {
@@ -306,12 +320,5 @@ BAD = [
 """,
         "meshes/Wheel.DAE": "<COLLADA/>",
     },
-    """
-<visual name="v">
-  <geometry><box><size>1 1 1</size></box></geometry>
-  <material><pbr><metal>
-    <albedo_map>materials/textures/paint.png</albedo_map>  <!-- ^ REF002 -->
-  </metal></pbr></material>
-</visual>
-""",
+    _PAINTED.replace("@", "  <!-- ^ REF002 -->"),
 ]

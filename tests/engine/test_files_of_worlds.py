@@ -46,6 +46,26 @@ def test_a_file_that_a_static_model_names_and_that_is_not_there(
     assert found.severity is not Severity.INFO
 
 
+@pytest.mark.parametrize(
+    ("shape", "has", "severity"),
+    [
+        ("visual", "", Severity.WARNING),
+        ("collision", "", Severity.ERROR),
+        ("visual", '<plugin name="p" filename="libdoor.so"/>', Severity.ERROR),
+    ],
+)
+def test_a_mesh_of_scenery_that_is_only_seen_is_no_error(
+    shape: str, has: str, severity: Severity, tmp_path: Path
+) -> None:
+    text = _WORLD.replace("visual", shape).replace("@", "absent.stl")
+    (tmp_path / "hall.world").write_text(text.replace("<static>true</static>", has))
+    settings = Settings(
+        select=("REF002",), trial=False, profile="gazebo-harmonic", profile_chosen=True
+    )
+    report = check_package(tmp_path / "hall.world", settings).packages[0]
+    assert [it.severity for it in report.findings] == [severity]
+
+
 @pytest.mark.parametrize("uri", ["walls.stl", "model://cafe/meshes/cafe.dae"])
 def test_a_file_that_is_there_or_may_be_of_an_absent_model(tmp_path: Path, uri: str) -> None:
     (tmp_path / "walls.stl").touch()
