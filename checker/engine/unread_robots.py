@@ -25,6 +25,7 @@ from checker.package.released import distributions_with
 from checker.package.unchecked_models import unchecked_models
 from checker.report.report import FILES, ROBOT, Cause, NotChecked
 from checker.ros.simulation import Simulations
+from checker.source.xml import XmlDocument
 
 _NO_ROBOT = "no URDF, xacro, SDF or MJCF file of it is a robot, and no launch file starts one"
 _BESIDE_URDF = (
@@ -76,6 +77,7 @@ def _without_robot(subject: Subject) -> Iterator[NotChecked]:
         _of_launch_files(subject),
         _of_roslaunch_files(subject),
         _of_templates(package),
+        _of_misnamed_model(package),
         _of_mujoco(subject),
     )
     reasons = list(dict.fromkeys(sources))
@@ -180,6 +182,14 @@ def _of_mujoco(subject: Subject) -> Iterator[_Reason]:
     models = subject.one(MjcfModel)
     if isinstance(models, NotAvailable) and models.applicable:
         yield _Reason(models.reason)
+
+
+def _of_misnamed_model(package: Package) -> Iterator[_Reason]:
+    """Yield that the model of a package has the name of an SDF file, and contains URDF."""
+    model = own_model(package)
+    document = package.xml(model) if model is not None and not package.only else None
+    if isinstance(document, XmlDocument) and document.root.tag == "robot":
+        yield _Reason(f"{model} is URDF by its root element, and is not read: name it .urdf")
 
 
 def _of_templates(package: Package) -> Iterator[_Reason]:

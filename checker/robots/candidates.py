@@ -147,7 +147,8 @@ def most_likely(
 
 def _files(package: Package) -> list[str]:
     if package.only:
-        return [package.only] if package.only.lower().endswith((*_SUFFIXES, ".xml")) else []
+        named = package.only.lower().endswith((*_SUFFIXES, ".xml"))
+        return [package.only] if named or _root_tag(package, package.only) == "robot" else []
     files = (it for it in package.index.with_suffix(*_SUFFIXES) if not it.is_broken_for_tests)
     paths = (file.path for file in files if not file.path.lower().endswith(_OF_MOVEIT))
     if package.is_loose:
@@ -155,6 +156,11 @@ def _files(package: Package) -> list[str]:
     if package.kind is PackageKind.URDF_DESCRIPTION:
         return [path for path in paths if not is_of_page(package, path)]
     return [path for path in paths if path.startswith(FOLDER_BESIDE_SDF)]
+
+
+def _root_tag(package: Package, path: str) -> str:
+    document = package.xml(path)
+    return document.root.tag if isinstance(document, XmlDocument) else ""
 
 
 def _is_of_package_within(package: Package, path: str) -> bool:
@@ -214,6 +220,13 @@ def unreadable_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
     for path in _files(package):
         if path not in seen and isinstance(source := package.read(path), NotReadable):
             yield f"{path} {source.reason}"
+
+
+def misnamed_models(package: Package) -> Iterator[str]:
+    """Yield why files named as URDF are not read, each the end of a sentence: they are SDF."""
+    for path in _files(package) if not package.only else ():
+        if path.lower().endswith(".urdf") and _root_tag(package, path) == "sdf":
+            yield f"{path} is SDF by its root element, and is not read: name it .sdf"
 
 
 def unused_parts(package: Package, seen: frozenset[str]) -> Iterator[str]:

@@ -27,6 +27,7 @@ from checker.robots.candidates import (
     candidates,
     is_included,
     may_hold_description,
+    misnamed_models,
     most_likely,
     unreadable_models,
     unused_parts,
@@ -151,6 +152,7 @@ class PackageDescriptions:
             made = (description.file for description in called)
             seen = self._seen.union(made, (it.path for it in self._beyond))
             reasons += unreadable_models(self._package, seen)
+            reasons += misnamed_models(self._package)
             reasons += self._unread_for_number()
             left = unused_parts(self._package, seen)
             unused += (f"{path} is not read: no file of a robot includes it" for path in left)

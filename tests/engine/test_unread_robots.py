@@ -59,6 +59,21 @@ def test_a_model_beside_urdf_is_said_to_be_unchecked(tmp_path: Path) -> None:
     assert any("subt-check model.sdf" in unseen.reason for unseen in report.not_checked)
 
 
+def test_the_only_file_of_the_name_is_read_where_the_path_is_wrong(tmp_path: Path) -> None:
+    robot = "<robot name='hand'><link name='palm'/></robot>"
+    spawned = """        Node(package='ros_gz_sim', executable='create', arguments=[
+            '-file', in_package('model', 'hand.urdf')]),"""
+    report = checked({"@ros2": spawned, ARM: None, "parts/hand.urdf": robot}, tmp_path)
+    assert report.facts["robot"] == "hand"
+    assert any(found.rule == "LCH001" for found in report.findings)
+
+
+def test_a_model_that_is_urdf_by_its_root_is_said_to_be_unread(tmp_path: Path) -> None:
+    report = checked({"model.sdf": "<robot name='hand'><link name='palm'/></robot>"}, tmp_path)
+    assert report.verdict is VerdictKind.INCOMPLETE
+    assert any("model.sdf is URDF by its root element" in reason for reason in reasons(report))
+
+
 def test_a_package_without_robot_is_not_ready(tmp_path: Path) -> None:
     report = checked(WITHOUT_ROBOT, tmp_path)
     assert report.verdict is VerdictKind.INCOMPLETE

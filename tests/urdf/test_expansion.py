@@ -294,3 +294,15 @@ def test_robots_are_read_before_objects_where_there_are_many(describe: Describe)
     assert "arm" in links(subject)
     (reason,) = (it for it in files_of(subject).unread if "not read" in it)
     assert "box" in reason
+
+
+def test_a_file_is_read_by_its_root_whatever_its_name(describe: Describe) -> None:
+    assert links(describe({f"{NAME}/acme.sdf": robot(BASE)}, only="acme.sdf")) == ["base"]
+
+
+def test_sdf_in_a_file_of_urdf_is_said_to_be_unread(describe: Describe) -> None:
+    model = '<sdf version="1.9"><model name="lid"><link name="lid"/></model></sdf>'
+    files = files_of(describe({FILE: robot(BASE), f"{NAME}/urdf/lid.urdf": model}))
+    assert files.unread == (
+        "urdf/lid.urdf is SDF by its root element, and is not read: name it .sdf",
+    )

@@ -12,7 +12,8 @@ from msgspec.structs import replace
 from checker.base.record import Record
 from checker.formats.xacro.files import ROOT, path_of
 from checker.launch.ros1.launch_file import Load, read_command
-from checker.launch.ros2.graph import LaunchGraph, Node, Parameter, is_known
+from checker.launch.ros2.graph import LaunchGraph, Node, Parameter, is_known, share_path
+from checker.launch.ros2.named_paths import is_missing, lies_elsewhere
 from checker.launch.ros2.package_files import local_file
 from checker.launch.ros2.values import CONTENT, REPLACING
 from checker.package.package import Package
@@ -103,8 +104,16 @@ def _described(package: Package, text: str) -> Iterator[tuple[Load, dict[str, st
 
 
 def _as_listed(package: Package, path: str) -> str | None:
-    """Return how xacro sees a file that is installed at a path; None if it is not available."""
-    local = local_file(package, path) if path.startswith(f"{ROOT}/") else None
+    """Return how xacro sees a file that is installed at a path; None if it is not available.
+
+    One that is not installed there is the only file of that name in its package: LCH001 says so.
+    """
+    target = share_path(path)
+    if target is None:
+        return None
+    local = local_file(package, path)
+    if local is None and is_missing(package, target):
+        local = local_file(package, f"{ROOT}/{target.package}/{lies_elsewhere(package, target)}")
     return None if local is None else path_of(package, local)
 
 
