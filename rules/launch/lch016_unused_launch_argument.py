@@ -52,6 +52,11 @@ _NAV2 = """<launch>
 """
 
 GOOD = [
+    {
+        "@ros2": True,
+        "launch/world.launch.xml": '<launch><arg name="own" default="False"/>'
+        '<gz_server world_sdf_file="empty.sdf" create_own_container="$(var own)"/></launch>',
+    },
     {"@ros2": True, "launch/nav.launch.xml": _NAV2.replace("@", "map").replace("%", "")},
     {"@ros2": f"{_DECLARED}\n{_USE}"},
     {"@ros2": f"{_DECLARED}\n{_PREFIX}"},

@@ -367,6 +367,9 @@ _READ_ALONE = MappingProxyType(
         for name in (
             *("output", "launch-prefix", "respawn", "respawn_delay", "respawn_max_retries", "cwd"),
             *("emulate_tty", "sigterm_timeout", "sigkill_timeout", "exec_name", "period"),
+            # <gz_server> and <ros_gz_bridge>
+            *("world_sdf_string", "initial_sim_time", "verbosity_level", "container_name"),
+            *("create_own_container", "use_composition", "use_respawn", "log_level"),
         )
     }
 )
