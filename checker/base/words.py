@@ -74,6 +74,28 @@ def or_list(values: Iterable[float]) -> str:
     return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
+_EXACT = 17
+"""Digits that no number has more of."""
+
+
+def beyond(value: float, *limits: float, digits: int = 2) -> str:
+    """Return a number with enough digits to tell it from limits beyond which it is.
+
+    Args:
+        value: The number.
+        limits: What a message compares it with.
+        digits: Digits that it has in any case.
+    """
+    for more in range(digits, _EXACT):
+        text = f"{value:.{more}g}"
+        if all(
+            (float(text) > it) == (value > it) and (float(text) < it) == (value < it)
+            for it in limits
+        ):
+            return text
+    return repr(value)
+
+
 _CONTROL = re.compile(
     r"[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff]"
 )

@@ -14,6 +14,7 @@ a skid-steer robot to 1 to 2 times the distance. Set `<wheel_base>` to the dista
 Source: parameters of Gazebo's DiffDrive, AckermannSteering, MecanumDrive and TrackedVehicle.
 """
 
+from checker.base.words import beyond
 from checker.formats.corrections import rewrite
 from checker.model.locomotion.wheel_positions import CountedDistance, counted_distances
 from checker.model.robot import Robot
@@ -49,9 +50,10 @@ def check(
 def _message(counted: CountedDistance, least: float, most: float) -> str:
     stated = counted.stated
     says = f"has {counted.tag}" if stated.stated else f"states no {counted.tag}, so it is"
+    times = beyond(stated.value / counted.true, least, most)
     return (
         f"{counted.plugin.label} {says} {stated.value:g} m, but its {counted.what} are "
-        f"{counted.true:.4g} m apart: {stated.value / counted.true:.2g} times, expected {least:g} "
+        f"{counted.true:.4g} m apart: {times} times, expected {least:g} "
         f"to {most:g}"
     )
 

@@ -10,6 +10,7 @@ Source: SDFormat and URDF use SI units; ground and air robots from 5 cm and 50 g
 25 m and 50 t.
 """
 
+from checker.base.words import beyond
 from checker.model.geometry.placed_shapes import all_shapes, union
 from checker.model.robot import Robot
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
@@ -47,14 +48,16 @@ def check(
         elif not smallest <= side <= largest:
             yield finding(
                 robot,
-                f"the robot measures {side:.3g} m, expected {smallest:g} to {largest:g} m",
+                f"the robot measures {beyond(side, smallest, largest, digits=3)} m, expected "
+                f"{smallest:g} to {largest:g} m",
             )
     if robot.unweighed:
         yield unchecked(robot.unweighed)
     elif box is not None and robot.mass and not lightest <= robot.mass <= heaviest:
         yield finding(
             robot,
-            f"the robot weighs {robot.mass:.3g} kg, expected {lightest:g} to {heaviest:g} kg",
+            f"the robot weighs {beyond(robot.mass, lightest, heaviest, digits=3)} kg, expected "
+            f"{lightest:g} to {heaviest:g} kg",
         )
 
 

@@ -7,6 +7,7 @@ Fix: build the collision from several convex parts, preferably boxes and cylinde
 Source: geometry: the volume of the convex hull compared with that of the mesh.
 """
 
+from checker.base.words import beyond
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -29,8 +30,8 @@ def check(robot: Robot, *, factor: float = 2.0) -> Findings:
         if ratio > factor:
             yield finding(
                 use.uri,
-                f"the convex hull of {use.uri.value} has {ratio:.3g} times the volume of the "
-                f"mesh, expected at most {factor:g} times",
+                f"the convex hull of {use.uri.value} has {beyond(ratio, factor, digits=3)} times "
+                f"the volume of the mesh, expected at most {factor:g} times",
             )
 
 

@@ -8,6 +8,7 @@ Source: experience; the speed at the end of a stop of 1.5 s, or longer if the ro
 more time.
 """
 
+from checker.base.words import beyond
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -26,8 +27,8 @@ def check(driven: SettledTrial, *, error_above: float = 0.05) -> Findings:
     way = f" and has moved {distance:.2g} m" if distance is not None else ""
     yield finding(
         driven.drive,
-        f"after a stop the robot still moves at {abs(speed):.2g} m/s{way}, expected at most "
-        f"{error_above:g} m/s",
+        f"after a stop the robot still moves at {beyond(abs(speed), error_above)} m/s{way}, "
+        f"expected at most {error_above:g} m/s",
         key="stop_speed",
     )
 

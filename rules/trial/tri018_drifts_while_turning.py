@@ -9,6 +9,7 @@ wheels; if the real robot drifts too, say so in specifications.md.
 Source: quasi-static balance of Coulomb friction at the contact points with their loads.
 """
 
+from checker.base.words import beyond
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import rover
@@ -27,8 +28,8 @@ def check(driven: SettledTrial, *, warning_above: float = 0.5) -> Findings:
         return
     yield finding(
         driven.drive,
-        f"the robot drifts {drift:.2g} m while turning in place, expected at most "
-        f"{warning_above:g} m" + _cause(driven, drift),
+        f"the robot drifts {beyond(drift, warning_above)} m while turning in place, expected "
+        f"at most {warning_above:g} m" + _cause(driven, drift),
         key="turn_drift",
     )
 

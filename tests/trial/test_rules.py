@@ -151,6 +151,11 @@ def test_speed_that_the_wheel_radius_explains() -> None:
     assert said.endswith("; wheel_radius is 0.2 m, but the wheels have a radius of 0.1 m")
 
 
+def test_a_difference_does_not_round_to_what_is_allowed() -> None:
+    said = message("TRI003", speed_ratio=0.949)
+    assert said.endswith("a difference of 5.1%, expected at most 5%")
+
+
 def test_a_robot_whose_axles_lie_along_x_drives_along_y() -> None:
     sideways = rover(axis="1 0 0")
     (found,) = said_by(RULES["TRI003"], trial_of(speed_ratio=0.004, path_sideways=20.0), sideways)
@@ -167,7 +172,7 @@ def test_what_slides_is_named_where_a_robot_is_slow() -> None:
     assert found.severity is WARNING
     assert found.message.endswith(
         "; link 'base_link' slides on the ground, and its friction is 30% of the robot's weight: "
-        "give it a friction of 0.001"
+        "give it <mu> and <mu2> of 0.001"
     )
     slow = trial_of(Measurement("drag", 0.01, "base_link"), speed_ratio=0.5)
     assert [found.severity for found in said_by(RULES["TRI003"], slow)] == [ERROR]
