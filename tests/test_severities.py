@@ -105,6 +105,14 @@ MESHES = {
     "meshes/arm.dae": "<COLLADA/>",
     "urdf/a.urdf": "<mesh filename='meshes/arm.dae'/>",
 }
+ABSENT = """<package format="3">
+  <name>acme_arm_bringup</name>
+  <depend>acme_drivers</depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+BESIDE = {"../acme_tools/package.xml": "<package><name>acme_tools</name></package>"}
+NAMED_IN_README = {"README.md": "Clone acme_drivers too.\n"}
 CONFIGURED = {
     "@ros2": True,
     "CMakeLists.txt": "project(acme_arm_bringup)\nfind_package(ament_cmake_auto REQUIRED)\n"
@@ -395,6 +403,9 @@ CASES: list[tuple[str, Example, str]] = [
     ("PKG003", {**HELD, SHEET: "# Rover\nsensor_config_1 has no lidar\n"}, "warning"),
     ("PKG003", {**HELD, SHEET: "# Rover\nconfiguration 12\n"}, "error"),
     ("PKG003", {"thumbnails/1.png": None}, "info"),
+    ("PKG021", {"@ros2": True, "package.xml": ABSENT}, "info"),
+    ("PKG021", {"@ros2": True, "package.xml": ABSENT, **BESIDE}, "warning"),
+    ("PKG021", {"@ros2": True, "package.xml": ABSENT, **BESIDE, **NAMED_IN_README}, "info"),
     ("PKG008", CONFIGURED, "warning"),
     ("PKG008", {**CONFIGURED, "@ros2": READS_CONFIG}, "error"),
     ("PKG008", LEFT, "info"),

@@ -33,8 +33,13 @@ def is_nowhere(package: Package, name: str) -> bool:
         return False
     if package.named(name) is not None or package.workspace.without_manifest(name):
         return False
+    return not (may_be_brought(package, name) or any(_uses(it, name) for it in every))
+
+
+def may_be_brought(package: Package, name: str) -> bool:
+    """Return whether a file above a package lists other repositories, or names one of its own."""
     above = (text for texts in files_above(package, _BRINGING) for text in texts)
-    return not (any(_brings(it, name) for it in above) or any(_uses(it, name) for it in every))
+    return any(_brings(it, name) for it in above)
 
 
 def _brings(source: SourceText, name: str) -> bool:

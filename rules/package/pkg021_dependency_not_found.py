@@ -5,8 +5,10 @@ cannot build it. A misspelt name is a warning, and so is one that another packag
 the distribution that the package names, and one that never was a package: `ros2_control_node` is a
 program of controller_manager, `ament_python` a build type, and `opencv-python` a name of pip, for
 which rosdep has `python3-opencv`. So is a library that the distribution has by another name:
-`orocos_kdl` by `orocos_kdl_vendor`. Other names are infos: the package may be built from source
-that is not available here, for example if only an older distribution has released it. Of Foxy and
+`orocos_kdl` by `orocos_kdl_vendor`. So are names that no distribution has ever had, in a repository
+of several packages whose README, lists of repositories, scripts and containers do not name them.
+Other names are infos: the package may be built from source that is not available here, for example
+if only an older distribution has released it. Of Foxy and
 Galactic it is not known what they have released: in packages for these, only names that they are
 known not to have are reported. Dependencies with a `condition` are skipped.
 
@@ -21,7 +23,10 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from checker.base.resources import table
 from checker.package.distribution_sign import former_name
+from checker.package.files_above import README, files_around
 from checker.package.manifests import Dependency, Paperwork
+from checker.package.mentions import has_word
+from checker.package.nowhere import may_be_brought
 from checker.package.package import Package
 from checker.package.released import (
     ReleasedNames,
@@ -66,7 +71,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
                 key=name,
                 fix=rename(dependency.package, meant),
             )
-    yield from _elsewhere(others, context, distro)
+    yield from _elsewhere(package, others, context, distro)
 
 
 def _is_found(package: Package, dependency: Dependency, distro: str) -> bool:
@@ -101,7 +106,9 @@ def _no_package(dependency: Dependency, mistaken: Mapping[str, str], *, declared
     )
 
 
-def _elsewhere(dependencies: list[Dependency], context: Context, distro: str) -> Iterator[Finding]:
+def _elsewhere(
+    package: Package, dependencies: list[Dependency], context: Context, distro: str
+) -> Iterator[Finding]:
     if dependencies:
         first, *others = dependencies
         names = ", ".join(map(_package_phrase, dependencies))
@@ -110,13 +117,23 @@ def _elsewhere(dependencies: list[Dependency], context: Context, distro: str) ->
             _replacement(it) and (context.distro_is_known or not _is_of_ros_2(it.package.value))
             for it in dependencies
         )
+        nowhere = bool(package.other_packages) and not any(
+            distributions_with(it.package.value) or _is_brought(package, it.package.value)
+            for it in dependencies
+        )
         yield finding(
             first.package,
             f"ROS 2 {distro.capitalize()} and rosdep have no {noun} {names}: "
             "expected in the workspace",
-            severity=Severity.WARNING if replaced else Severity.INFO,
+            severity=Severity.WARNING if replaced or nowhere else Severity.INFO,
             related=[(other.package, "and this") for other in others],
         )
+
+
+def _is_brought(package: Package, name: str) -> bool:
+    """Return whether a file around a package may bring another one, or a README names it."""
+    readmes = files_around(package, README)
+    return may_be_brought(package, name) or any(has_word(it.text, name) for it in readmes)
 
 
 def _package_phrase(dependency: Dependency) -> str:
