@@ -615,36 +615,34 @@ def test_high_friction_matters_where_wheels_skid(
     wheels: str, severities: set[str], tmp_path: Path
 ) -> None:
     package = write_example(wheels, tmp_path)
-    settings = Settings(profile="gazebo-harmonic", profile_chosen=True, select=("GEO009",))
+    settings = Settings(profile="gazebo-classic", profile_chosen=True, select=("GEO009",))
     (report,) = check_package(package, settings).packages
     assert {str(finding.severity) for finding in report.findings} == severities
 
 
 @pytest.mark.parametrize(
-    ("shape", "kind", "severity"),
+    ("more", "severity"),
     [
-        ("", "fixed", "warning"),
-        ("", "revolute", "error"),
-        (PICTURE.format("1 1 1"), "fixed", "error"),
+        ("", "warning"),
+        (LID.replace("lid", "mount").replace("body", "rig"), "error"),
+        (POINT.format("0.1"), "error"),
     ],
 )
-def test_a_frame_on_the_base_needs_no_inertia(
-    shape: str, kind: str, severity: str, tmp_path: Path
+def test_a_rig_that_nothing_moves_needs_no_inertia(
+    more: str, severity: str, tmp_path: Path
 ) -> None:
-    inertia = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"
-    (tmp_path / "cart.sdf").write_text(
-        f"""<sdf version="1.9"><model name="cart">
-<link name="base_link"><inertial><mass>1</mass>{inertia}</inertial></link>
-<link name="frame">{shape}</link>
-<joint name="j" type="{kind}"><parent>base_link</parent><child>frame</child></joint>
-<link name="wheel"><inertial><mass>1</mass>{inertia}</inertial></link>
-<joint name="axle" type="revolute"><parent>base_link</parent><child>wheel</child></joint>
+    joint, inside = (more, "") if "joint" in more else ("", more)
+    (tmp_path / "rig.sdf").write_text(
+        f"""<sdf version="1.9"><model name="rig">
+<link name="rig"><sensor name="eye" type="camera"/>{inside}</link>{joint}
+<link name="top"><inertial><mass>1</mass>
+<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial></link>
 </model></sdf>
 """,
         "utf-8",
     )
     settings = Settings(profile="gazebo-harmonic", profile_chosen=True, select=("INE001",))
-    (report,) = check_package(tmp_path / "cart.sdf", settings).packages
+    (report,) = check_package(tmp_path / "rig.sdf", settings).packages
     assert [str(finding.severity) for finding in report.findings] == [severity]
 
 

@@ -1,8 +1,8 @@
 """A wheel, track or foot without friction, or with impossibly high friction.
 
 Without friction a wheel spins in place. Rubber on rock reaches about 1; with a coefficient of 150
-the robot climbs walls that no real robot climbs, and some engines jitter. Outside of submissions
-too high a friction is an info, since it only keeps the wheels from slipping, except in a robot that
+the robot climbs walls that no real robot climbs, and some engines jitter. In Gazebo Classic, whose
+engine takes any high friction as one that does not slip, that is an info, except in a robot that
 turns by skidding. Engines use different defaults for friction that is not stated.
 
 A part that does not roll, such as a ball in place of a caster that is fixed to the robot or turns
@@ -43,7 +43,8 @@ def check(
         foot_height: Metres above a legged robot's lowest point; collisions of moving links that
             reach below this height count as feet.
     """
-    too_high = None if context.is_subt or robot.locomotion.kind in _SKIDDING else Severity.INFO
+    is_held = context.release == "classic" and robot.locomotion.kind not in _SKIDDING
+    too_high = Severity.INFO if is_held else None
     reader = FrictionReader(robot)
     across = _mu2_meanings(robot)
     touching = [

@@ -3,11 +3,10 @@
 A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
 adds an unintended kilogram to the total. This includes links on fixed joints. The mass of a link
 does not matter if fixed joints connect it to the world, or if the model is static. Outside of
-submissions it is a warning in a robot above 20 kg, where the default is little, and for a link
-without shapes that is fixed to the base, such as a base_footprint: no joint has to move it. In URDF
-a link without `<inertial>` weighs nothing (URD007), and URD012 reports an incomplete `<inertial>`.
-From SDF 1.11 on `<inertial auto="true">` makes the simulator compute it from collisions and
-densities.
+submissions it is a warning in a robot above 20 kg, where the default is little, and in a model
+without joints and collisions, such as a camera in the air: nothing has to move it. In URDF a link
+without `<inertial>` weighs nothing (URD007), and URD012 reports an incomplete `<inertial>`. From
+SDF 1.11 on `<inertial auto="true">` makes the simulator compute it from collisions and densities.
 
 Fix: state mass, pose and inertia of the link, from CAD or the formulas for boxes and cylinders. If
 the link is only a frame, lump it into its parent.
@@ -57,17 +56,12 @@ def _severity(robot: Robot, link: Link) -> Severity | None:
     """Return the severity where the default is little beside what the robot states or moves."""
     if robot.is_prop:
         return Severity.INFO
-    if _is_frame_of_base(robot, link):
+    if not robot.joints and not any(each.collisions for each in robot.links):
         return Severity.WARNING
     stated = sum(it.mass.value for each in robot.links if (it := each.inertial) and it.mass.stated)
     own = link.inertial.mass.value if link.inertial is not None else _DEFAULT_MASS
     is_light = own <= _DEFAULT_MASS or link in robot.wheels
     return None if is_light and stated < _HEAVY * _DEFAULT_MASS else Severity.WARNING
-
-
-def _is_frame_of_base(robot: Robot, link: Link) -> bool:
-    bare = link.inertial is None and not link.collisions and not link.visuals
-    return bare and link.scoped_name in robot.tree.base
 
 
 def _missing(robot: Robot, link: Link, *, automatic: bool) -> Iterator[Finding]:
