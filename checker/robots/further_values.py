@@ -1,7 +1,7 @@
 """Values of xacro's arguments that choose another robot than the defaults do.
 
-A file names them where it compares an argument, tests it, or includes a file whose name it is part
-of; a launch file where it lists the choices for one.
+A file names them where it compares an argument, or a parameter of a macro that gets it, tests it,
+or includes a file whose name it is part of; a launch file where it lists the choices for one.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ _COMPARED = re.compile(
     r"""\b([A-Za-z_]\w{0,100})['"]?\s{0,8}[=!]=\s{0,8}(?:['"]([\w./-]{1,100})['"]|(\d{1,9})\b)"""
 )
 _EITHER = re.compile(r"\b[A-Za-z_]\w{0,100}(?:\s{1,8}or\s{1,8}[A-Za-z_]\w{0,100}){1,9}")
+_NO_CALLS = frozenset({"xacro:arg", "xacro:if", "xacro:unless", "xacro:include", "xacro:macro"})
+"""Elements of xacro itself, which hand no parameter to a macro."""
 _SIMULATOR = re.compile(r"gz|gazebo|ign|sim", re.IGNORECASE)
 _OPPOSITES = {
     "true": "false",
@@ -107,12 +109,15 @@ def defaults(documents: Iterable[XmlDocument]) -> dict[str, str]:
 
 
 def _aliases(elements: Iterable[Element]) -> dict[str, str]:
-    """Return the arguments whose values properties have, by the name of the property."""
-    properties = (element for element in elements if element.tag == "xacro:property")
-    found = (
-        (it.get("name") or "", _ARGUMENT.fullmatch(it.get("value") or "")) for it in properties
-    )
-    return {name: match[1] for name, match in found if match}
+    """Return the arguments whose values properties and parameters of macros have, by their name."""
+    found: dict[str, str] = {}
+    for element in elements:
+        given = {} if element.tag in _NO_CALLS else element.attributes
+        if element.tag == "xacro:property":
+            given = {element.get("name") or "": element.get("value") or ""}
+        matches = ((name, _ARGUMENT.fullmatch(value)) for name, value in given.items())
+        found |= {name: match[1] for name, match in matches if match}
+    return found
 
 
 def _compared_values(

@@ -65,6 +65,10 @@ PARTS = (
 )
 PROPERTY = "<xacro:property name='own' value='$(arg tool)'/>"
 COMPUTED = PROPERTY + INCLUDE.replace("$(arg tool)", "${own}")
+IN_A_MACRO = f"""<xacro:macro name="arm" params="end">
+  <xacro:if value="${{end == 'hand'}}">{HAND}</xacro:if>
+</xacro:macro>
+<xacro:arm end="$(arg tool)"/>"""
 BY_PYTHON = f"{PROPERTY}<xacro:if value='${{own.startswith(\"ha\")}}'>{HAND}</xacro:if>"
 
 
@@ -74,9 +78,16 @@ BY_PYTHON = f"{PROPERTY}<xacro:if value='${{own.startswith(\"ha\")}}'>{HAND}</xa
         (TEST, ()),
         (INCLUDE, PARTS),
         (COMPUTED, PARTS),
+        (IN_A_MACRO, ()),
         (BY_PYTHON, [("launch/view.launch.py", LAUNCH)]),
     ],
-    ids=["compared", "file name", "property in a file name", "choice of a launch file"],
+    ids=[
+        "compared",
+        "file name",
+        "property in a file name",
+        "parameter",
+        "choice of a launch file",
+    ],
 )
 def test_what_another_value_leads_to_is_judged(
     tmp_path: Path, body: str, others: Sequence[tuple[str, str]]
