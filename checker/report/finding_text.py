@@ -35,7 +35,10 @@ def finding_text(
     yield f"{where_text(place, package)} {severity} {finding.rule} {finding.name}: {message}"
     if settings.full and finding.severity is not Severity.INFO:
         yield from _frame(place, settings.palette)
-    yield from _other_places(finding.places[1:], package)
+    here = [it for it in finding.places[1:] if _is_same_spot(it, place)]
+    if here:
+        yield f"    {len(here)} more from the same line"
+    yield from _other_places([it for it in finding.places[1:] if it not in here], package)
     for rule, name in dict.fromkeys((repeat.rule, repeat.name) for repeat in finding.repeats):
         yield f"    also {rule} {name}"
     if finding.severity is Severity.INFO:
@@ -72,6 +75,12 @@ def path_of(place: Place, package: PackageReport) -> str:
 def where_text(place: Place, package: PackageReport) -> str:
     """Return a place as editors and terminals understand it; a folder has no line."""
     return plain(path_of(place, package)) + (f":{place.line}:{place.column}" if place.file else "/")
+
+
+def _is_same_spot(other: Place, place: Place) -> bool:
+    """Return whether a line, such as that of a macro, makes a fault once more."""
+    spot = (place.file, place.line, place.column)
+    return not other.note and bool(place.line) and (other.file, other.line, other.column) == spot
 
 
 def _other_places(places: Sequence[Place], package: PackageReport) -> Iterator[str]:
