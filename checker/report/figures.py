@@ -59,6 +59,10 @@ class Row(Record):
         return self.verdict in _SEVERITIES
 
 
+_ALIKE = 0.01
+"""Share up to which the figures of several parts are shown as one."""
+
+
 def rows_of(measurements: Sequence[Mapping[str, Any]]) -> list[Row]:
     """Return the rows of a trial, in its order; `PackageReport.trial` holds the figures."""
     by_name: dict[str, list[Mapping[str, Any]]] = {}
@@ -75,7 +79,9 @@ def worst_verdict(verdicts: Iterable[str]) -> str:
 def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
     first = figures[0]
     values = [figure["value"] for figure in figures]
-    ends = dict.fromkeys(_number(value, first["unit"]) for value in (min(values), max(values)))
+    low, high = min(values), max(values)
+    ends = [low, high] if high - low > _ALIKE * abs(high) else [high]
+    shown = dict.fromkeys(_number(value, first["unit"]) for value in ends)
     unit = "°" if first["unit"] == "rad" else first["unit"] if first["unit"] not in _UNNAMED else ""
     joint = "" if unit in ("", "°") else " "
     verdicts = [str(figure["verdict"]) for figure in figures]
@@ -84,7 +90,7 @@ def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
         verdict = NOT_JUDGED
     return Row(
         label=first["label"],
-        value=f"{'…'.join(ends)}{joint}{unit}",
+        value=f"{'…'.join(shown)}{joint}{unit}",
         verdict=verdict,
         limits=limits_in_words(name, first["limits"], first["unit"]),
         rule=first["rule"],
