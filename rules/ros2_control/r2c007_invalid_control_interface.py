@@ -3,6 +3,7 @@
 `<param name="min">` and `max` can make the limits of the URDF tighter, not wider. Mock hardware and
 Gazebo put the joint at its start position even if that is outside of its limits, and the limits
 then push it back. Controllers do not find an interface whose name is a misspelt standard one.
+gazebo_ros2_control offers `position_pid` as `position`, and `velocity_pid` as `velocity`.
 
 Fix: keep `min`, `max` and `initial_value` within the `<limit>` of the joint, and write `position`,
 `velocity`, `acceleration` or `effort`.
@@ -14,7 +15,12 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.words import Suggestions
 from checker.model.components import Axis, Joint
-from checker.ros.ros2_control.hardware import STANDARD_INTERFACES, HardwareJoint, Interface
+from checker.ros.ros2_control.hardware import (
+    STANDARD_INTERFACES,
+    WITH_PID,
+    HardwareJoint,
+    Interface,
+)
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import Concern, Finding, Findings, Severity, finding, misspelt, rule
 from checker.rulebook.example_parts import ros2_control
@@ -42,7 +48,7 @@ def _misspelt(
     joint: HardwareJoint, interface: Interface, suggestions: Suggestions
 ) -> Iterator[Finding]:
     name = interface.name.value
-    if name not in STANDARD_INTERFACES and suggestions.closest(name):
+    if name not in (*STANDARD_INTERFACES, *WITH_PID) and suggestions.closest(name):
         message = f"joint {joint.name.value!r} has the interface {name!r}, which no controller uses"
         yield misspelt(interface.name, message, suggestions)
 
@@ -116,6 +122,7 @@ GOOD = [
     _arm(_param("position", "min", "-0.5")),
     _arm(_param("position", "initial_value", "0.3")),
     _arm('<command_interface name="velocity"/><state_interface name="gripper_force"/>'),
+    _arm('<command_interface name="position_pid"/>'),
 ]
 BAD = [
     _arm(_param("position", "max", "3", _MARK)),

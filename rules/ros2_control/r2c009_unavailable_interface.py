@@ -23,7 +23,7 @@ from checker.model.controllers import Controller
 from checker.package.package import Package
 from checker.ros.ros2_control.claims import Claim, claims_of, sensors_of
 from checker.ros.ros2_control.distributions import is_mock, is_of_gazebo
-from checker.ros.ros2_control.hardware import HardwareJoint
+from checker.ros.ros2_control.hardware import WITH_PID, HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
 from checker.rule import (
     Concern,
@@ -108,7 +108,8 @@ def _missing(
         ("command", claim.commands, joint.commands),
         ("state", claim.states, joint.states),
     ):
-        names = [interface.name.value for interface in offered]
+        own = (interface.name.value for interface in offered)
+        names = [WITH_PID.get(name, name) for name in own]
         for name in needed:
             if name not in names:
                 has = f"it offers {and_list(names)}" if names else "it offers none"
@@ -176,6 +177,7 @@ def _beside(joints: str) -> dict[str, object]:
 _FORWARD = "forward_command_controller/ForwardCommandController"
 _GRIPPER = "parallel_gripper_action_controller/GripperActionController"
 _IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
+_HELD = _arm("interface_name: position\n    joints: [shoulder]", _FORWARD)
 GOOD = [
     _follow("shoulder"),
     _follow("$(var prefix)shoulder"),
@@ -183,6 +185,7 @@ GOOD = [
     _arm("sensor_name: imu\n    frame_id: base_link", _IMU),
     _arm("sensor_name: <robot>/imu\n    frame_id: base_link", _IMU),
     _beside("[shoulder]"),
+    {**_HELD, "@urdf": str(_HELD["@urdf"]).replace('"position"', '"position_pid"', 1)},
 ]
 BAD = [
     _arm("joints: [elbow]  # ^ R2C009"),

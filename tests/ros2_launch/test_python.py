@@ -105,6 +105,7 @@ def test_places_are_those_of_the_literals(read: Read) -> None:
             "def f(v):\n    if v == 'a':\n        return 'A'\n    return 'B'\nx = [f('a'), f('b')]",
             ["A", "B"],
         ),
+        ("from os import pathsep, path\nx = [path.join('a', 'b') + pathsep]", ["a/b:"]),
     ],
 )
 def test_python_is_evaluated(read: Read, statements: str, expected: list[str]) -> None:

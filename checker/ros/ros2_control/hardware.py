@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from types import MappingProxyType
 
 from checker.base.record import Record
 from checker.model.values import parse_number
@@ -17,6 +18,8 @@ STANDARD_INTERFACES = (
     *("position", "velocity", "acceleration", "effort"),
     *("torque", "force", "current", "temperature"),
 )
+WITH_PID = MappingProxyType({"position_pid": "position", "velocity_pid": "velocity"})
+"""Command interfaces that gazebo_ros2_control offers by another name, held by its own PID."""
 
 
 class Interface(Tagged, Record, eq=False):

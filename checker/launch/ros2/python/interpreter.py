@@ -244,7 +244,7 @@ class Interpreter:
                 return names.values.get(name, self.unknown(node, f"{path} is not defined"))
             if whole is not None:
                 return whole
-        return Symbol(path)
+        return self._named(path, node)
 
     def names_of(self, module: str, node: ast.AST) -> Iterable[str]:
         """Return the names that `from module import *` binds, as far as they are known."""
@@ -264,11 +264,13 @@ class Interpreter:
         if isinstance(owner, Scope):
             return owner.values.get(name, self.unknown(node, f"{name} is not defined"))
         if isinstance(owner, Symbol):
-            path = f"{owner.path}.{name}"
-            if path in CONSTANTS:
-                return add_place(CONSTANTS[path], self.span(node))
-            return Symbol(path)
+            return self._named(f"{owner.path}.{name}", node)
         return methods.attribute(self, owner, name, node)
+
+    def _named(self, path: str, node: ast.AST) -> Value:
+        """Return what a name of a library stands for, by its whole path."""
+        known = path in CONSTANTS
+        return add_place(CONSTANTS[path], self.span(node)) if known else Symbol(path)
 
     def item(self, owner: Value, key: Value, node: ast.AST) -> Value:
         """Return `owner[key]`."""
