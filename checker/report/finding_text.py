@@ -78,7 +78,7 @@ def where_text(place: Place, package: PackageReport) -> str:
 
 
 def _is_same_spot(other: Place, place: Place) -> bool:
-    """Return whether a line, such as that of a macro, makes a fault once more."""
+    """Return whether a line, such as that of a macro, makes the same fault again."""
     spot = (place.file, place.line, place.column)
     return not other.note and bool(place.line) and (other.file, other.line, other.column) == spot
 
