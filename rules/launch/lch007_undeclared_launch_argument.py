@@ -1,9 +1,9 @@
 """A launch argument that is used before it is declared, or never declared.
 
 The launch ends with "launch configuration 'x' does not exist", unless the user gives `x:=…`.
-Actions are visited in order: a declaration counts for what follows it. Arguments that an included
-file which is not available may declare are not checked, nor are files that another available file
-includes.
+Actions are visited in order: a declaration counts for what follows it, and for what an event such
+as the end of a process starts. Arguments that an included file which is not available may declare
+are not checked, nor are files that another available file includes.
 
 Fix: add `DeclareLaunchArgument('x', default_value=…)` before its use.
 Source: launch, `LaunchConfiguration.perform`: without a default, a missing one raises an error.
@@ -48,8 +48,13 @@ _USE = """        Node(package='rviz2', executable='rviz2',
              arguments=['-d', LaunchConfiguration('view')]),"""
 _DECLARED = "        DeclareLaunchArgument('view', default_value='a.rviz'),"
 
+_AT_THE_END = f"""        RegisterEventHandler(OnProcessExit(on_exit=[
+{_USE}
+        ])),
+{_DECLARED}"""
 GOOD = [
     {"@ros2": f"{_DECLARED}\n{_USE}"},
+    {"@ros2": _AT_THE_END},
     {"@ros2": _USE.replace("'view'", "'view', default='a.rviz'")},
     {
         "@ros2": _USE,

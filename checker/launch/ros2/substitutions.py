@@ -113,7 +113,7 @@ def _configuration(made: Made, context: Context) -> Text:
         return perform(context.state.configurations[str(name)], context, made.span)
     if made.values.get("default") is not None:
         return perform(made.values["default"], context, made.span)
-    if context.state.beyond:
+    if context.state.beyond or (context.after and str(name) in context.declared):
         return PlacedText(f"$(var {name})", made.span)
     if is_known(name):
         message = f"argument {str(name)!r} is used, but not declared"
