@@ -4,14 +4,15 @@ MoveIt looks for the solver under the name of the group, so that the group meant
 cannot be planned ("No kinematics solver instantiated for group"), and the marker in RViz does not
 move the arm. Often the group was renamed in the SRDF alone.
 
-kinematics.yaml is that in the folder of the SRDF; a name that any SRDF of the folder contains is
-known.
+kinematics.yaml is that in the folder of the SRDF; a group of any SRDF of the folder is known. Where
+xacro computes the name of a group, nothing is reported.
 
 Fix: write the name of the group as in the SRDF.
 Source: MoveIt, kinematics_plugin_loader: the parameters `robot_description_kinematics.GROUP`.
 """
 
 import posixpath
+import re
 from collections.abc import Iterator
 
 from checker.package.package import Package
@@ -24,6 +25,7 @@ from checker.source.yaml import read_root
 _FILE = "kinematics.yaml"
 _SOLVER = "kinematics_solver"
 _TOP = "robot_description_kinematics"
+_GROUP = re.compile(r"""<group\s{1,40}name\s{0,4}=\s{0,4}["']([^"'<>]{1,200})["']""")
 
 
 @rule("URD038", "kinematics-of-unknown-group", Severity.WARNING, Concern.INTERFACE)
@@ -33,14 +35,14 @@ def check(semantic: SemanticDescription, package: Package) -> Findings:
     folder = posixpath.dirname(semantic.file)
     path = posixpath.join(folder, _FILE)
     root = read_root(package.read(path)) if groups and package.exists(path) else None
-    if root is None:
+    beside = set(_groups_beside(package, folder))
+    if root is None or any("$" in name for name in beside):
         return
     entries = (root.get(_TOP) or root).entries
-    beside = "\n".join(_texts(package, folder))
     without = sorted(groups - {str(key.scalar) for key, _ in entries})
     for key, settings in entries:
         name = str(key.scalar)
-        if settings.get(_SOLVER) is None or name in groups or f'"{name}"' in beside:
+        if settings.get(_SOLVER) is None or name in groups | beside:
             continue
         hint = f": write {' or '.join(map(repr, without))}" if without else ""
         yield finding(
@@ -50,13 +52,13 @@ def check(semantic: SemanticDescription, package: Package) -> Findings:
         )
 
 
-def _texts(package: Package, folder: str) -> Iterator[str]:
-    """Yield the SRDF files of a folder."""
+def _groups_beside(package: Package, folder: str) -> Iterator[str]:
+    """Yield the groups that the SRDF files of a folder define as they are written."""
     for file in package.index.files:
         if posixpath.dirname(file.path) == folder and ".srdf" in file.path:
             source = package.read(file.path)
             if isinstance(source, SourceText):
-                yield source.text
+                yield from _GROUP.findall(source.text)
 
 
 def _moveit(name: str, mark: str = "", group: str = "arm", more: str = "") -> dict[str, object]:
