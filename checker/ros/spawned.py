@@ -42,7 +42,7 @@ EVERY_SPAWN = (*SPAWNS, *CLASSIC_SPAWNS)
 
 def may_spawn(graph: LaunchGraph) -> bool:
     """Return whether a launch file spawns something into Gazebo, or includes Gazebo's own."""
-    programs = ((node.package.value, node.executable.value) for node in graph.nodes_and_spawns)
+    programs = (node.program for node in graph.nodes_and_spawns)
     return any(map(is_gazebo_include, graph.includes)) or any(it in SPAWNS for it in programs)
 
 
@@ -100,7 +100,7 @@ class SpawnedReader:
         robots: list[SpawnedRobot] = []
         unknown: list[str] = [*spawned_otherwise(graph)]
         for node in graph.nodes_and_spawns:
-            if (node.package.value, node.executable.value) not in spawns:
+            if node.program not in spawns:
                 continue
             if node.starts is False:
                 continue

@@ -37,7 +37,7 @@ class _Spawn(Record):
     @property
     def in_classic(self) -> bool:
         """Whether Gazebo Classic gets it."""
-        return _program(self.node) in CLASSIC_SPAWNS
+        return self.node.program in CLASSIC_SPAWNS
 
 
 class SpawnedFiles(Record, eq=False, dict=True):
@@ -85,12 +85,12 @@ class SpawnedFiles(Record, eq=False, dict=True):
         for graph, loaded in self._graphs:
             given = [it for it in loaded if it.node.starts is not False and _describes(it)]
             nodes = graph.nodes_and_spawns
-            managers = [it for it in nodes if it.starts and _program(it) == (MANAGER, MANAGER_NODE)]
+            managers = [it for it in nodes if it.starts and it.program == (MANAGER, MANAGER_NODE)]
             certain = given and all(
                 self._file(it) == file and it.node.starts and not it.load.args and not it.unknown
                 for it in given
             )
-            spawns = any(_program(it) in EVERY_SPAWN for it in nodes)
+            spawns = any(it.program in EVERY_SPAWN for it in nodes)
             if managers and certain and not spawns and not _may_spawn_more(graph):
                 return managers[0]
         return None
@@ -99,7 +99,7 @@ class SpawnedFiles(Record, eq=False, dict=True):
         """Return whether a launch file that loads a robot starts what spawns it into Gazebo."""
         file = robot.document.source.file
         return any(
-            _program(node) in EVERY_SPAWN and node.starts
+            node.program in EVERY_SPAWN and node.starts
             for graph, loaded in self._graphs
             if file in map(self._file, loaded)
             for node in graph.nodes_and_spawns
@@ -139,7 +139,7 @@ class SpawnedFiles(Record, eq=False, dict=True):
         if graph.unread or any(spawned_otherwise(graph)):
             yield None
         for node in graph.nodes_and_spawns:
-            if _program(node) in EVERY_SPAWN:
+            if node.program in EVERY_SPAWN:
                 given = _given(graph, node, loaded)
                 yield from (self._spawn(graph, node, it) for it in given)
                 if not given:
@@ -155,11 +155,7 @@ class SpawnedFiles(Record, eq=False, dict=True):
 
 def _describes(given: LoadedDescription) -> bool:
     """Return whether a node passes a description on to controller managers, or is one."""
-    return is_state_publisher(given.node) or _program(given.node) == (MANAGER, MANAGER_NODE)
-
-
-def _program(node: Node) -> tuple[str, str]:
-    return node.package.value, node.executable.value
+    return is_state_publisher(given.node) or given.node.program == (MANAGER, MANAGER_NODE)
 
 
 def _given(
@@ -196,4 +192,4 @@ def _is_file(node: Node) -> bool:
 
 
 def _starts_manager(graph: LaunchGraph) -> bool:
-    return (MANAGER, MANAGER_NODE) in map(_program, graph.nodes_and_spawns)
+    return (MANAGER, MANAGER_NODE) in (it.program for it in graph.nodes_and_spawns)

@@ -51,7 +51,7 @@ def check(launch: Ros2Launch) -> Findings:
     """Report options that `create` does not have."""
     for graph in launch.entries:
         for node in graph.nodes:
-            if (node.package.value, node.executable.value) != ("ros_gz_sim", "create"):
+            if node.program != ("ros_gz_sim", "create"):
                 continue
             words = [*takewhile(lambda it: it.value != "--ros-args", node.arguments)]
             yield from filter(None, map(_unknown, words))

@@ -55,7 +55,7 @@ def _spawned_files(package: Package, graph: LaunchGraph) -> Iterator[tuple[Span,
         if program in EVERY_SPAWN and as_it_is and path:
             yield loaded.span, path
     for node in graph.nodes_and_spawns:
-        if (node.package.value, node.executable.value) in EVERY_SPAWN:
+        if node.program in EVERY_SPAWN:
             for option, word in pairwise(node.arguments):
                 path = _on_machine(package, word.value) if option.value == "-file" else ""
                 if path:

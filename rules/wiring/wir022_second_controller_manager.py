@@ -40,7 +40,7 @@ _MOVES = "-robot_namespace"
 @rule("WIR022", "second-controller-manager", Severity.WARNING, Concern.INTERFACE)
 def check(launched: LaunchedControl, package: Package) -> Findings:
     """Report each ros2_control_node with the full name of a controller manager in Gazebo."""
-    found = {(it.package.value, it.executable.value) for it in launched.graph.nodes_and_spawns}
+    found = {it.program for it in launched.graph.nodes_and_spawns}
     if (MANAGER, MANAGER_NODE) not in found or found.isdisjoint(EVERY_SPAWN):
         return
     for given, graph in _launches(launched.graph, package):

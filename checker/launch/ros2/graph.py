@@ -29,8 +29,9 @@ def is_known(text: str) -> bool:
 
 
 GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
-CLASSIC_PACKAGE = "gazebo_ros"
 """Packages that start Gazebo, and spawn models in it."""
+CLASSIC_PACKAGE = "gazebo_ros"
+"""The same of Gazebo Classic."""
 
 
 class SharePath(Record):
@@ -266,6 +267,11 @@ class Node(Started, eq=False, kw_only=True):
     remaps: tuple[Remap, ...] = ()
     environment: Mapping[str, str] = field(default_factory=dict)
     unread: tuple[Unread, ...] = ()
+
+    @property
+    def program(self) -> tuple[str, str]:
+        """Package and name of the program."""
+        return self.package.value, self.executable.value
 
     def parameter(self, name: str) -> Parameter | None:
         """Return the parameter of a name that counts, among those that are in the launch file."""

@@ -72,7 +72,7 @@ class Wiring(Record, eq=False, dict=True):
         found = dict(manager_names(self.every_node, self.spawned))
         worlds = simulation.worlds if simulation is not None else ()
         plugins = (it for world in worlds for model in world.models for it in model.plugins)
-        programs = {(it.node.package.value, it.node.executable.value) for it in self.every_node}
+        programs = {it.node.program for it in self.every_node}
         unknown = (
             "" in found,
             any(node.facts is None for node in self.every_node),
@@ -209,5 +209,4 @@ def _described(
 
 
 def _spawns_in_classic(node: Node) -> bool:
-    program = (node.package.value, node.executable.value)
-    return node.starts is True and program in CLASSIC_SPAWNS
+    return node.starts is True and node.program in CLASSIC_SPAWNS

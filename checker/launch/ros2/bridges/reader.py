@@ -167,7 +167,7 @@ class _Reader:
         )
 
     def node(self, node: Node) -> None:
-        package, executable = node.package.value, node.executable.value
+        package, executable = node.program
         own, given = _split(node.arguments)
         at = _at(node, given)
         if package in _IMAGES and executable == "image_bridge":
