@@ -17,7 +17,6 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 _READ = (".rviz", ".vcg", ".yaml", ".perspective", ".lua", ".csv", ".pgm")
 _WRITES = frozenset({"map_saver", "record", "spawn_model"})
 """Programs that write the file, and the one whose files CTL008 checks."""
-_OUTSIDE = "../../"
 
 
 @rule("LCH029", "missing-file-of-ros-1-node", Severity.WARNING, Concern.INTERFACE)
@@ -29,13 +28,10 @@ def check(package: Package, launch: LaunchEntries) -> Findings:
     for entry in launch.entries:
         for node in entry.graph.nodes:
             for word in node.words if node.type not in _WRITES else ():
-                name = word.value
-                path = files.path_of(name) if name.endswith(_READ) else None
-                if path is None or path.startswith(_OUTSIDE) or package.exists(path):
-                    continue
-                yield finding(
-                    word, f"node {node.name!r} is given {path}, which does not exist", key=path
-                )
+                path = files.absent(word.value) if word.value.endswith(_READ) else None
+                if path is not None:
+                    message = f"node {node.name!r} is given {path}, which does not exist"
+                    yield finding(word, message, key=path)
 
 
 def _shown(name: str, mark: str = "", program: str = "rviz") -> dict[str, object]:

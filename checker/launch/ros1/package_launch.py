@@ -32,6 +32,9 @@ SAMPLE_ARGUMENTS: Mapping[str, str] = MappingProxyType(
 )
 """Arguments that a launcher passes to every launch file."""
 
+_ABOVE = "../../"
+"""What is above the folder of the packages is not available."""
+
 
 def launch_graph(
     package: Package, started: StartedXml | NotAvailable
@@ -139,6 +142,13 @@ class LaunchFiles(Record):
         if prefix is None or not path:
             return None
         return posixpath.normpath(posixpath.join(prefix, path))
+
+    def absent(self, text: str) -> str | None:
+        """Return the path of `$(find package)/path` if the package is available and lacks it."""
+        path = self.path_of(text)
+        if path is None or path.startswith(_ABOVE) or self.package.exists(path):
+            return None
+        return path
 
     def find(self, package: str, file: str) -> XmlDocument | str:
         """Return the launch file of a command: roslaunch looks for it anywhere in the package."""

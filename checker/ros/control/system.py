@@ -40,8 +40,6 @@ _READING = ("command", "textfile")
 _DESCRIPTION = re.compile(
     r"\$\(find\s{1,8}[\w.-]{1,200}\)/[^\s'\"$;|]{1,500}\.(?:urdf|xacro|sdf)\b"
 )
-_ABOVE = "../../"
-"""What is above the folder of the packages is not available."""
 _LONGEST = 5_000
 """Characters of a command that are read."""
 
@@ -180,7 +178,7 @@ def missing_parameter_files(package: Package, graph: LaunchGraph) -> Iterable[Pa
     """Yield the files of parameters that a launch file loads and an available package lacks."""
     files = LaunchFiles(package)
     for param in graph.params:
-        path = files.path_of(param.value) if param.kind == "load" else None
-        if path is not None and not path.startswith(_ABOVE) and not package.exists(path):
+        path = files.absent(param.value) if param.kind == "load" else None
+        if path is not None:
             message = f"{path} is loaded as parameters, but does not exist"
             yield ParameterFault(param.span, message)
