@@ -12,20 +12,19 @@ Source: MoveIt, kinematics_plugin_loader: the parameters `robot_description_kine
 """
 
 import posixpath
-import re
 from collections.abc import Iterator
 
 from checker.package.package import Package
 from checker.robots.semantic import SemanticDescription
 from checker.rule import Concern, Findings, Severity, finding, rename, rule
 from checker.rulebook.example_parts import ARM, MOVEIT_LAUNCH
-from checker.source.text import Located, SourceText
+from checker.source.text import Located
+from checker.source.xml import XmlDocument
 from checker.source.yaml import read_root
 
 _FILE = "kinematics.yaml"
 _SOLVER = "kinematics_solver"
 _TOP = "robot_description_kinematics"
-_GROUP = re.compile(r"""<group\s{1,40}name\s{0,4}=\s{0,4}["']([^"'<>]{1,200})["']""")
 
 
 @rule("URD038", "kinematics-of-unknown-group", Severity.WARNING, Concern.INTERFACE)
@@ -56,9 +55,10 @@ def _groups_beside(package: Package, folder: str) -> Iterator[str]:
     """Yield the groups that the SRDF files of a folder define as they are written."""
     for file in package.index.files:
         if posixpath.dirname(file.path) == folder and ".srdf" in file.path:
-            source = package.read(file.path)
-            if isinstance(source, SourceText):
-                yield from _GROUP.findall(source.text)
+            document = package.xml(file.path)
+            for element in document.elements if isinstance(document, XmlDocument) else ():
+                if element.tag == "group":
+                    yield (element.get("name") or "").strip()
 
 
 def _moveit(name: str, mark: str = "", group: str = "arm", more: str = "") -> dict[str, object]:
