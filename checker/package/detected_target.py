@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.package.distribution_sign import sign_around, sign_of_paths
+from checker.package.distribution_sign import sign_around
 from checker.package.gazebo_sign import release_sign
 from checker.package.mentions import has_word
 from checker.package.simulator_signs import (
@@ -90,7 +90,7 @@ def _target_beside(package: Package) -> DetectedTarget | None:
     """
     named = {}
     for other in () if package.only else package.other_packages:
-        sign, stated = sign_of_paths(other), other.distribution_sign
+        sign, stated = other.sign_of_paths, other.distribution_sign
         if sign and (stated is None or stated.distro == sign.distro):
             named[sign.distro] = (sign, other.name)
     if len(named) != 1:

@@ -64,7 +64,7 @@ def distribution_sign(package: Package) -> DistributionSign | None:
         if one is not None:
             return one if not several or one.distro in several else None
         several |= {sign.distro for sign in signs}
-    return None if several else sign_of_paths(package)
+    return None if several else package.sign_of_paths
 
 
 def former_distribution(package: Package) -> str:

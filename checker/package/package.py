@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from checker.base.files import NotReadable, TooLarge
 from checker.base.record import Record
 from checker.finding import Place
-from checker.package.distribution_sign import DistributionSign, distribution_sign
+from checker.package.distribution_sign import DistributionSign, distribution_sign, sign_of_paths
 from checker.package.formats import xml_suffixes
 from checker.package.index import (
     EntryKind,
@@ -207,6 +207,11 @@ class Package(Record, eq=False, dict=True):
     def distribution_sign(self) -> DistributionSign | None:
         """ROS 2 distribution that its files, or those around it, name."""
         return distribution_sign(self)
+
+    @cached_property
+    def sign_of_paths(self) -> DistributionSign | None:
+        """ROS 2 distribution whose folder its descriptions and scripts name."""
+        return sign_of_paths(self)
 
     @cached_property
     def build_type(self) -> str | None:
