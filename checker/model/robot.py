@@ -55,8 +55,9 @@ _NEAR_EARTH = 0.05
 _BALANCING = re.compile(r"balanc|segway|pendulum", re.IGNORECASE)
 
 OTHERS_SIMULATED = "Gazebo gets another description"
-UNDRIVEN = "no launch file that loads it starts a simulator, and nothing drives it in one"
 """Why no simulator gets a robot, beside one that a simulator gets."""
+UNDRIVEN = "no launch file that loads it starts a simulator, and nothing drives it in one"
+"""Why no simulator gets a robot that has sensors or plugins for one."""
 
 
 class Robot(Part, dict=True):

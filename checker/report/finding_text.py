@@ -35,10 +35,10 @@ def finding_text(
     yield f"{where_text(place, package)} {severity} {finding.rule} {finding.name}: {message}"
     if settings.full and finding.severity is not Severity.INFO:
         yield from _frame(place, settings.palette)
-    here = [it for it in finding.places[1:] if _is_same_spot(it, place)]
-    if here:
-        yield f"    {len(here)} more from the same line"
-    yield from _other_places([it for it in finding.places[1:] if it not in here], package)
+    others = [it for it in finding.places[1:] if not _is_same_spot(it, place)]
+    if again := len(finding.places[1:]) - len(others):
+        yield f"    {again} more from the same line"
+    yield from _other_places(others, package)
     for rule, name in dict.fromkeys((repeat.rule, repeat.name) for repeat in finding.repeats):
         yield f"    also {rule} {name}"
     if finding.severity is Severity.INFO:

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
+from checker.report.figures import rows_of
 from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import (
     Cause,
@@ -160,6 +161,28 @@ def test_repeats_are_named_up_to_three_and_counted() -> None:
     assert also == f"    also {', '.join(shown)} and 21 more places"
     four = [line for line in lines(replace(FAULT, places=places[:4])) if "also" in line]
     assert four == [f"    also {', '.join(shown)}"]
+
+
+def test_places_of_one_line_are_counted() -> None:
+    again = replace(PLACE, message="of another link")
+    noted = replace(PLACE, note="the first one")
+    elsewhere = replace(PLACE, line=9)
+    found = replace(FAULT, places=(PLACE, again, again, noted, elsewhere))
+    own = [line for line in full(found) if line.startswith("    ")]
+    assert "    2 more from the same line" in own
+    assert not any("of another link" in line for line in own)
+    assert any(line.endswith(": the first one") for line in own)
+    assert any("model.sdf:9:19" in line for line in own)
+
+
+def test_figures_that_agree_are_one() -> None:
+    figure = {"name": "torque", "label": "t", "unit": "N·m", "verdict": "ok", "rule": "TRI009"}
+    alike, apart = (
+        [{**figure, "limits": {}, "value": value} for value in values]
+        for values in ((0.353, 0.354), (0.353, 0.36))
+    )
+    assert [row.value for row in rows_of(alike)] == ["0.354 N·m"]
+    assert [row.value for row in rows_of(apart)] == ["0.353…0.36 N·m"]
 
 
 def test_a_related_place_says_what_it_has_to_do_with_it() -> None:
