@@ -112,26 +112,43 @@ class SpawnedFiles(Record, eq=False, dict=True):
         return found.pop() if len(found) == 1 else None
 
     def misplaced(self, robot: Robot) -> Sequence[Node]:
-        """Return the nodes that spawn a robot into Gazebo Sim, though more files do into Classic.
+        """Return the nodes that spawn a robot into Gazebo Sim, where as many files do into Classic.
 
-        Classic gets the same file with the same arguments. None where that is not known, or a
-        launch file of another package is among them: its places are not those of this package.
+        Classic gets the same file with the same arguments. None where a launch file of another
+        package is among them: its places are not those of this package.
         """
-        file = robot.document.source.file
-        own = [it for it in self._spawns or () if it.file == file]
+        own = self._certain_of(robot)
         classic = [it for it in own if it.in_classic]
         given = [it.load for it in classic]
         later = [it.node for it in own if not it.in_classic and it.load in given]
-        most = len({it.node.file for it in classic}) > len({it.file for it in later})
+        as_many = len({it.node.file for it in classic}) >= len({it.file for it in later})
         mine = {id(node) for graph in self.own for node in graph.nodes_and_spawns}
-        return later if most and mine.issuperset(map(id, later)) else ()
+        return later if as_many and mine.issuperset(map(id, later)) else ()
+
+    def is_in_both(self, robot: Robot) -> bool:
+        """Return whether launch files spawn a robot into Classic, and into a later Gazebo."""
+        return {it.in_classic for it in self._certain_of(robot)} == {True, False}
+
+    def classic_spawn(self, robot: Robot) -> Node | None:
+        """Return the first node that spawns a robot into Classic, if any does."""
+        return next((it.node for it in self._certain_of(robot) if it.in_classic), None)
+
+    def _certain_of(self, robot: Robot) -> Sequence[_Spawn]:
+        """Return what spawns a robot for certain, though launch files may spawn more."""
+        file = robot.document.source.file
+        return [it for it in self._read_spawns if it is not None and it.file == file]
 
     @cached_property
     def _spawns(self) -> tuple[_Spawn, ...] | None:
         """All that is spawned; None if that is not known."""
-        found = [spawn for each in self._graphs for spawn in self._spawned(*each)]
+        found = self._read_spawns
         known = tuple(it for it in found if it is not None)
         return known if len(known) == len(found) else None
+
+    @cached_property
+    def _read_spawns(self) -> Sequence[_Spawn | None]:
+        """All that is spawned; None in place of each that is not known."""
+        return [spawn for each in self._graphs for spawn in self._spawned(*each)]
 
     def _spawned(
         self, graph: LaunchGraph, loaded: Sequence[LoadedDescription]

@@ -6,8 +6,10 @@ line and continues without the drive, the sensor or the light that the plugin pr
 In a URDF that no launch file spawns into Gazebo it is a warning: RViz, MoveIt and other simulators
 do not read it, and the file may be kept for Gazebo Classic. In one that launch files spawn into
 Gazebo Classic alone (`gazebo_ros`, `spawn_entity.py`) the plugins are right. Where there is no
-launch file at all, it stays an error. Where more launch files spawn it into Gazebo Classic than
-into Gazebo, and all its plugins are for Classic, those of the package that do not are reported.
+launch file at all, it stays an error. Where launch files spawn it into both simulators, a plugin
+whose replacement is beside it is right for Classic, and is not reported. If all its plugins are for
+Classic, and no more launch files spawn it into Gazebo than into Classic, those are reported that
+spawn it into Gazebo.
 
 A xacro file may support several simulators by an argument: if its default chooses Gazebo Classic,
 the plugins for later releases are not expanded, and no plugin is reported.
@@ -15,11 +17,12 @@ the plugins for later releases are not expanded, and no plugin is reported.
 No accepted package that we checked has this fault.
 
 Fix: remove the plugin and use what the message names: a sensor in the model, or a system plugin (in
-a submission, in `launch/spawner.rb`). Where a launch file is reported, start Gazebo Classic in it.
+a submission, in `launch/spawner.rb`). Where a launch file is reported, start Gazebo Classic in it,
+or choose the plugins by a xacro argument.
 Source: Model Migration Guide, "Remove/replace unsupported plugins".
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from checker.finding import Fix
@@ -76,6 +79,8 @@ def check(
     if misplaced and len(found) == len(host.plugins):
         yield from misplaced
         return
+    if host.robot is not None and spawned.is_in_both(host.robot):
+        found = [(plugin, known) for plugin, known in found if not _is_replaced(known, host)]
     loaded = (
         not found
         or host.robot is None
@@ -100,16 +105,30 @@ def check(
 def _misplaced(
     robot: Robot, spawned: SpawnedFiles, found: Sequence[tuple[Plugin, dict[str, Any]]]
 ) -> Iterator[Finding]:
-    """Yield the nodes that put a robot of Classic into Gazebo, where more launch files do not."""
-    file = robot.document.source.file
+    """Yield the nodes that put a robot of Classic into Gazebo, where others do into Classic."""
+    file, classic = robot.document.source.file, spawned.classic_spawn(robot)
+    other = classic.file if classic is not None else ""
     for node in spawned.misplaced(robot) if found else ():
         yield finding(
             node.executable,
             f"Gazebo Sim gets {file} here and loads none of its plugins ({len(found)}), which are "
-            "of Gazebo Classic: spawn it with gazebo_ros spawn_entity.py, as other launch files do",
+            f"of Gazebo Classic: spawn it with gazebo_ros spawn_entity.py, as {other} does, or "
+            'have both kinds in the xacro, those of Gazebo Sim in `<xacro:if value="$(arg gz)">` '
+            "and these in `<xacro:unless>`",
             key=file,
             related=[(plugin.filename, "a plugin of Gazebo Classic") for plugin, _ in found],
         )
+
+
+def _is_replaced(known: Mapping[str, Any], host: PluginHost) -> bool:
+    """Return whether the robot also has what does the same in a later Gazebo."""
+    instead = known.get("replacement") or {}
+    library = library_stem(instead.get("filename", ""))
+    stems = {newer_name(library_stem(plugin.filename.value)) for plugin in host.plugins}
+    if "later" in known:
+        return any(stem and stem in known["later"] for stem in stems)
+    types = {sensor.type.value for sensor in host.robot.sensors} if host.robot else set()
+    return newer_name(library) in stems or instead.get("sensor_type") in types
 
 
 def _is_loaded(
@@ -181,6 +200,7 @@ _WORLD = """
 """
 _HARMONIC = {"@profile": "gazebo-harmonic"}
 _DRIVE = '<plugin filename="libgazebo_ros_diff_drive.so" name="drive"/>'
+_LATER_DRIVE = '<plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive"/>'
 _SPAWN = """<launch>
   <node pkg="robot_state_publisher" exec="robot_state_publisher">
     <param name="robot_description" type="str"
@@ -216,6 +236,7 @@ _HERE = _IN_GAZEBO.replace("/>\n</launch>", "/>  <!-- ^ PLG001 -->\n</launch>")
 _MARKED = f"{_DRIVE}  <!-- ^ PLG001 -->"
 GOOD = [
     _rover(world=_IN_CLASSIC),
+    _rover(a=_IN_CLASSIC, b=_IN_GAZEBO, drive=f"{_DRIVE}\n{_LATER_DRIVE}"),
     {"@profile": "gazebo-classic", "@fragment": _DRIVE},
     '<plugin filename="libignition-gazebo-diff-drive-system.so" name="drive"/>',
 ]
@@ -232,7 +253,8 @@ BAD = [
     {**_HARMONIC, "@fragment": _WORLD.format("libgazebo_ros_state.so", "state", "^ PLG001")},
     {"@profile": "ros2", "@urdf": f"<gazebo>{_DRIVE}</gazebo>  <!-- ^ PLG001 -->"},
     _rover(a=_IN_CLASSIC, b=_IN_CLASSIC, c=_HERE),
-    _rover(a=_IN_CLASSIC, b=_IN_GAZEBO, drive=_MARKED),
+    _rover(a=_IN_CLASSIC, b=_HERE),
+    _rover(a=_IN_CLASSIC, b=_IN_GAZEBO, c=_IN_GAZEBO, drive=_MARKED),
     {**_rover(a=_IN_CLASSIC, b=_IN_CLASSIC, drive=_MARKED), **_OF_OTHER},
     _rover(
         a=_IN_CLASSIC,

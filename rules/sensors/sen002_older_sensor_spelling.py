@@ -2,7 +2,8 @@
 
 `ray` and `lidar` are lidars that run on the CPU. Ignition Gazebo does not simulate them, so they
 publish nothing: this is an error. `gpu_ray` still works and is the older name of `gpu_lidar`: this
-is an info.
+is an info. In a robot that launch files spawn into Gazebo Classic as well, `ray` is right where a
+`gpu_lidar` is beside it; where all its plugins are for Classic, PLG001 reports the launch file.
 
 Fix: write the type `gpu_lidar`, and `<lidar>` for `<ray>`.
 Source: Model Migration Guide; src/Sensor.cc of sdformat, which reads `gpu_ray` as `gpu_lidar`; no
@@ -14,10 +15,12 @@ from collections.abc import Iterator
 from checker.finding import Fix
 from checker.formats.sdf.document import sdf_version
 from checker.model.components import Sensor
+from checker.model.plugin_library import classic_plugin
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 from checker.package.package import Package
 from checker.robots.simulator import classic_by_default
+from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.text import Span
 
@@ -28,7 +31,7 @@ _FIRST_GPU_LIDAR = (1, 6)
 
 
 @rule("SEN002", "older-sensor-spelling", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, context: Context, package: Package) -> Findings:
+def check(robot: Robot, context: Context, package: Package, spawned: SpawnedFiles) -> Findings:
     """Report older spellings of lidars, and lidars that the target release does not simulate."""
     if context.release == _CLASSIC or (
         not context.release and sdf_version(robot.document) < _FIRST_GPU_LIDAR
@@ -40,6 +43,8 @@ def check(robot: Robot, context: Context, package: Package) -> Findings:
     for sensor in robot.sensors:
         type = sensor.type.value
         if context.release and sensor.kind is SensorType.CPU_LIDAR:
+            if _is_for_classic(robot, spawned):
+                continue
             yield finding(
                 sensor.type,
                 f"sensor {sensor.name.value!r} has the type {type!r}, which "
@@ -56,6 +61,16 @@ def check(robot: Robot, context: Context, package: Package) -> Findings:
                 key=f"old {type}",
                 fix=_type_fix(sensor, _OLD[type], Safety.SAFE),
             )
+
+
+def _is_for_classic(robot: Robot, spawned: SpawnedFiles) -> bool:
+    """Return whether Gazebo Classic gets the robot, and lidars for it are no fault of the robot."""
+    if not spawned.is_in_both(robot):
+        return False
+    plugins = robot.all_plugins
+    alone = plugins and all(classic_plugin(it.filename.value) is not None for it in plugins)
+    beside = any(sensor.kind is SensorType.GPU_LIDAR for sensor in robot.sensors)
+    return beside or bool(alone and spawned.misplaced(robot))
 
 
 def _type_fix(sensor: Sensor, type: str, safety: Safety) -> Fix:
@@ -82,13 +97,39 @@ def _sensor(type: str, mark: str = "") -> str:
 """
 
 
+_SPAWN = """<launch>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description" type="str"
+      value="$(command 'xacro $(find-pkg-share acme_rover_bringup)/urdf/rover.urdf')"/>
+  </node>
+  <node pkg="{}" exec="{}" args="-topic robot_description"/>
+</launch>
+"""
+
+
+def _in_both(*types: str) -> dict[str, object]:
+    """Return a rover with lidars of some types that is spawned into Classic and into Gazebo."""
+    sensors = "".join(map(_sensor, types))
+    return {
+        "@bridge": True,
+        "@profile": "ros2",
+        "launch/rover.launch.py": None,
+        "launch/classic.launch.xml": _SPAWN.format("gazebo_ros", "spawn_entity.py"),
+        "launch/gazebo.launch.xml": _SPAWN.format("ros_gz_sim", "create"),
+        "urdf/rover.urdf": '<robot name="rover"><link name="base"/>'
+        f'<gazebo reference="base">{sensors}</gazebo>\n</robot>',
+    }
+
+
 _MARK = "  <!-- ^ SEN002 -->"
 GOOD = [
     _sensor("gpu_lidar"),
+    _in_both("ray", "gpu_lidar"),
     '<sensor name="imu" type="imu"/>',
     {"@profile": "gazebo-classic", "@fragment": _sensor("ray")},
 ]
 BAD = [
+    {**_in_both("ray"), "@reported": ["urdf/rover.urdf:2"]},
     *(_sensor(type, _MARK) for type in ("gpu_ray", "ray", "lidar")),
     '<sensor name="front_laser" type="gpu_ray"><ray/></sensor>  <!-- ^ SEN002 -->',
 ]
