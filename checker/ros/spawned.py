@@ -143,10 +143,17 @@ class SpawnedReader:
         ]
         return [it if isinstance(it, str) else it.robot for it in read]
 
+    def control(self, load: Load) -> RobotControl | None:
+        """Return ros2_control of the robot that a file makes with the arguments it is given."""
+        read = self._loaded(load)
+        return read.control if isinstance(read, _Described) else None
+
     def _robot(self, description: LoadedDescription) -> _Described | str:
         if description.unknown:
             return f"argument {description.unknown[0]!r} of the robot is not known"
-        load = description.load
+        return self._loaded(description.load)
+
+    def _loaded(self, load: Load) -> _Described | str:
         key = f"{load.path} {sorted(load.args.items())}"
         if key not in self._known:
             self._known[key] = self._described_robot(load)

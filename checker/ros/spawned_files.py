@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
+from msgspec.structs import replace
+
 from checker.base.record import Record
+from checker.finding import Place
 from checker.formats.xacro.files import local_path
 from checker.launch.ros1.launch_file import Load
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
@@ -19,6 +23,7 @@ from checker.ros.ros2_control.launched import MANAGER_NODE
 from checker.ros.servers import is_gazebo
 from checker.ros.spawned import CLASSIC_SPAWNS, EVERY_SPAWN, is_state_publisher, spawned_otherwise
 from checker.ros.unread import unread_files
+from checker.source.text import Span
 
 _ELSEWHERE = "Gazebo gets another description"
 _HARDWARE = "launch files give it to ros2_control_node, and none spawns it into Gazebo"
@@ -40,6 +45,18 @@ class _Spawn(Record):
         return self.node.program in CLASSIC_SPAWNS
 
 
+class OutsideManager(Record, eq=False):
+    """A ros2_control_node of a launch file that spawns nothing into Gazebo.
+
+    Attributes:
+        load: The description that it certainly gets.
+        place: Its program in the launch file, as the checked package lists that.
+    """
+
+    load: Load
+    place: Place
+
+
 class SpawnedFiles(Record, eq=False, dict=True):
     """Descriptions of a package, as far as its launch files and those that name it load them.
 
@@ -53,12 +70,17 @@ class SpawnedFiles(Record, eq=False, dict=True):
 
     @cached_property
     def _graphs(self) -> Sequence[tuple[LaunchGraph, Sequence[LoadedDescription]]]:
-        """What these launch files start, and the descriptions that they load.
-
-        Most packages need none of it: those of others are read when the first rule asks.
-        """
-        graphs = (*self.own, *(graph for _, graph in launches_naming(self.package)))
+        """What these launch files start, and the descriptions that they load."""
+        graphs = (*self.own, *(graph for _, graph in self._naming))
         return [(graph, [*loaded_descriptions(self.package, graph)]) for graph in graphs]
+
+    @cached_property
+    def _naming(self) -> Sequence[tuple[Package, LaunchGraph]]:
+        """Launch files of other packages that name this one, each with its package.
+
+        Most packages need none of it: they are read when the first rule asks.
+        """
+        return [*launches_naming(self.package)]
 
     def without(self, robot: Robot) -> str:
         """Return that Gazebo never gets a robot that is loaded, as a clause; empty if it may.
@@ -76,10 +98,10 @@ class SpawnedFiles(Record, eq=False, dict=True):
             return _ELSEWHERE
         return _HARDWARE if any(map(_starts_manager, loading)) else ""
 
-    def manager_outside(self, robot: Robot) -> Node | None:
-        """Return the ros2_control_node that certainly gets a robot, where no Gazebo gets it.
+    def managers_outside(self, robot: Robot) -> Iterator[OutsideManager]:
+        """Yield the ros2_control_nodes that certainly get the file of a robot, and no Gazebo.
 
-        It is one of a launch file that spawns nothing, and that gives xacro no arguments.
+        Each is one of a launch file that spawns nothing, and that gives xacro known arguments.
         """
         file = robot.document.source.file
         for graph, loaded in self._graphs:
@@ -87,13 +109,24 @@ class SpawnedFiles(Record, eq=False, dict=True):
             nodes = graph.nodes_and_spawns
             managers = [it for it in nodes if it.starts and it.program == (MANAGER, MANAGER_NODE)]
             certain = given and all(
-                self._file(it) == file and it.node.starts and not it.load.args and not it.unknown
+                self._file(it) == file
+                and it.node.starts
+                and it.load.args == given[0].load.args
+                and not it.unknown
                 for it in given
             )
             spawns = any(it.program in EVERY_SPAWN for it in nodes)
             if managers and certain and not spawns and not _may_spawn_more(graph):
-                return managers[0]
-        return None
+                place = self._place(graph, managers[0].executable.span)
+                yield OutsideManager(given[0].load, place)
+
+    def _place(self, graph: LaunchGraph, span: Span) -> Place:
+        """Return a place in a launch file, or in what it includes, as the package lists files."""
+        place = span.place()
+        holder = next((it for it, naming in self._naming if naming is graph), self.package)
+        path = f"../{holder.name}/{place.file}" if holder is not self.package else place.file
+        own = f"../{self.package.name}/"
+        return replace(place, file=posixpath.normpath(path).removeprefix(own))
 
     def is_spawned(self, robot: Robot) -> bool:
         """Return whether a launch file that loads a robot starts what spawns it into Gazebo."""

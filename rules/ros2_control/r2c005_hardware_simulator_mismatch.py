@@ -26,13 +26,13 @@ from collections.abc import Iterator, Mapping
 from msgspec.structs import replace
 
 from checker.formats.xacro.expanded import ExpandedText
-from checker.launch.ros2.graph import Node
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.exported_hardware import is_exported_for_gazebo
 from checker.ros.ros2_control.hardware import Hardware
 from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.ros.ros2_control.sdf_managers import managed_by_sdf
+from checker.ros.spawned import SpawnedReader
 from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
 from checker.rulebook.example_parts import GAZEBO, MOCK, model_beside, ros2_control
@@ -66,7 +66,11 @@ _EVERY_PACKAGE = frozenset(name for names in _PACKAGES.values() for name in name
 
 @rule("R2C005", "hardware-simulator-mismatch", Severity.ERROR, Concern.INTERFACE)
 def check(
-    control: RobotControl, package: Package, context: Context, spawned: SpawnedFiles
+    control: RobotControl,
+    package: Package,
+    context: Context,
+    spawned: SpawnedFiles,
+    reader: SpawnedReader,
 ) -> Findings:
     """Report plugins of a wrong name, or that cannot load the hardware.
 
@@ -74,10 +78,9 @@ def check(
     hardware that Gazebo gets whatever its launch files are given. In what Gazebo never gets nothing
     is an error but its hardware for ros2_control_node, and other hardware is none of its faults.
     """
-    simulated = _simulated(control, package) if control.by_default else []
-    manager = spawned.manager_outside(control.robot) if simulated else None
-    if manager is not None:
-        yield _outside(simulated[0], manager)
+    outside = next(_outside(control, package, spawned, reader), None)
+    if outside is not None:
+        yield outside
         return
     found = [*_found(control, package, context)]
     clause = spawned.without(control.robot) if found else ""
@@ -91,23 +94,32 @@ def check(
             yield replace(each, message=message, severity=Severity.WARNING)
 
 
-def _outside(hardware: Hardware, manager: Node) -> Finding:
-    """Report hardware of Gazebo at the ros2_control_node that gets it, if the package has that."""
-    places = [
-        (manager.executable, "ros2_control_node gets it here"),
-        (hardware.plugin, "the hardware"),
-    ]
-    if manager.executable.span.source.file.startswith("../"):
-        places.reverse()
-    (place, _), other = places
-    return finding(
-        place,
-        f"ros2_control_node cannot load hardware {hardware.plugin.value!r}, which exists only in "
-        "Gazebo: no hardware of the robot is loaded, and no controller starts; leave the tag out "
-        "of what ros2_control_node gets",
-        key="outside of Gazebo",
-        related=[other],
-    )
+def _outside(
+    control: RobotControl, package: Package, spawned: SpawnedFiles, reader: SpawnedReader
+) -> Iterator[Finding]:
+    """Yield hardware of Gazebo at the ros2_control_node that gets it, if the package has that.
+
+    The arguments of xacro there decide which hardware it gets.
+    """
+    may_be = control.by_default and _simulated(control, package)
+    for manager in spawned.managers_outside(control.robot) if may_be else ():
+        given = reader.control(manager.load)
+        for hardware in _simulated(given, package)[:1] if given is not None else ():
+            places = [
+                (manager.place, "ros2_control_node gets it here"),
+                (hardware.plugin.span.place(), "the hardware"),
+            ]
+            if manager.place.file.startswith("../"):
+                places.reverse()
+            (place, _), other = places
+            yield finding(
+                place,
+                f"ros2_control_node cannot load hardware {hardware.plugin.value!r}, which exists "
+                "only in Gazebo: no hardware of the robot is loaded, and no controller starts; "
+                "leave the tag out of what ros2_control_node gets",
+                key="outside of Gazebo",
+                related=[other],
+            )
 
 
 def _simulated(control: RobotControl, package: Package) -> list[Hardware]:

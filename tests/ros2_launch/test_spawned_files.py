@@ -8,6 +8,7 @@ import pytest
 
 from checker.finding import Severity
 from checker.pipeline import check_package
+from checker.report.report import PackageReport
 from checker.rule_testing import write_example
 from checker.settings import Settings
 
@@ -18,6 +19,23 @@ CLASSIC = PLUGIN.format("libgazebo_ros2_control.so", "control")
 CONTROL = """<ros2_control name="arm" type="system">
   <hardware><plugin>arm_driver/Arm</plugin></hardware>
 </ros2_control>
+"""
+CHOSEN = f"""<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
+{LINK}
+<xacro:arg name="sim" default="false"/>
+<ros2_control name="arm" type="system">
+  <hardware>
+    <xacro:if value="$(arg sim)"><plugin>gz_ros2_control/GazeboSimSystem</plugin></xacro:if>
+    <xacro:unless value="$(arg sim)"><plugin>arm_driver/Arm</plugin></xacro:unless>
+  </hardware>
+</ros2_control>
+<xacro:if value="$(arg sim)">{SIM}</xacro:if>
+</robot>
+"""
+OTHER = """<package format="3">
+  <name>arm_tests</name>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
 """
 FOLDER = "$(find-pkg-share acme_rover_bringup)/urdf"
 NODE = '<node pkg="{}" exec="{}" args="{}"/>\n'
@@ -74,6 +92,29 @@ def test_other_hardware(tmp_path: Path, nodes: tuple[str, ...], count: int) -> N
     assert len(findings("R2C005", files, tmp_path)) == count
 
 
+@pytest.mark.parametrize(("value", "count"), [("", 0), (" sim:=true", 1)])
+def test_arguments_of_xacro_choose_the_hardware(tmp_path: Path, value: str, count: int) -> None:
+    files = {
+        "urdf/arm.urdf.xacro": CHOSEN,
+        "launch/sim.launch.xml": launch("arm.urdf.xacro sim:=true", CREATE),
+        "launch/arm.launch.xml": launch(f"arm.urdf.xacro{value}", MANAGER),
+    }
+    found = findings("R2C005", files, tmp_path)
+    assert [severity for severity, _ in found] == [Severity.ERROR] * count
+
+
+def test_manager_of_another_package(tmp_path: Path) -> None:
+    files = {
+        "urdf/arm.urdf.xacro": CHOSEN,
+        "launch/sim.launch.xml": launch("arm.urdf.xacro sim:=true", CREATE),
+        "../arm_tests/package.xml": OTHER,
+        "../arm_tests/launch/arm.launch.xml": launch("arm.urdf.xacro sim:=true", MANAGER),
+    }
+    (found,) = report("R2C005", files, tmp_path).findings
+    assert found.places[0].file.endswith("urdf/arm.urdf.xacro")
+    assert found.places[1].file.endswith("../arm_tests/launch/arm.launch.xml")
+
+
 def test_unknown_library(tmp_path: Path) -> None:
     own = robot(CONTROL, PLUGIN.format("gz-sim-no-such-system", "none"))
     files = {"urdf/arm.urdf": own, "launch/arm.launch.xml": launch("arm.urdf", MANAGER)}
@@ -96,10 +137,14 @@ def test_classic(tmp_path: Path, more: tuple[str, ...], expected: list[Severity]
 
 
 def findings(rule: str, files: dict[str, str], folder: Path) -> list[tuple[Severity, str]]:
+    return [(it.severity, it.message) for it in report(rule, files, folder).findings]
+
+
+def report(rule: str, files: dict[str, str], folder: Path) -> PackageReport:
     example = {"@bridge": True, "launch/rover.launch.py": None, "urdf/rover.urdf": None, **files}
     package = write_example(example, folder)
     settings = Settings(
         trial=False, select=(rule,), profile="ros2", profile_chosen=True, distro="jazzy"
     )
-    (report,) = check_package(package, settings).packages
-    return [(it.severity, it.message) for it in report.findings]
+    (found,) = check_package(package, settings).packages
+    return found
