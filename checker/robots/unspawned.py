@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import chain
 
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
@@ -16,6 +16,7 @@ from checker.package.package import Package
 from checker.package.target import package_around
 from checker.robots.shown_only import spawns_others
 from checker.source.text import SourceText
+from checker.source.unused_values import without_unused_values
 
 _NAMING = (
     *(".py", ".launch", ".xml", ".sdf", ".world", ".xacro", ".urdf", ".yaml", ".yml", ".json"),
@@ -34,6 +35,8 @@ _BRANCH = "\u2500 "
 def unstarted_world(package: Package) -> str:
     """Return the clause that no launch file starts a world; empty where one may, or there is none.
 
+    A path that a launch file computes and passes to nothing does not start it.
+
     Args:
         package: The world as a single file.
     """
@@ -47,12 +50,17 @@ def unstarted_world(package: Package) -> str:
     stem = file.partition(".")[0]
     names = (file, f'"{stem}"', f"'{stem}'")
     own = (package.root / file).relative_to(around.root).as_posix() if around else ""
-    texts = _texts(around, package, own)
+    texts = (_used(text, names) for text in _texts(around, package, own))
     above = (it.text for sources in files_above(package, README) for it in sources)
     lines = chain.from_iterable(text.splitlines() for text in chain(texts, above))
     if any(_BRANCH not in line and any(name in line for name in names) for line in lines):
         return ""
     return f"only in {file}, which no launch file starts"
+
+
+def _used(text: str, names: Sequence[str]) -> str:
+    """Return a text; of one that has one of the names without what Python sets and never reads."""
+    return without_unused_values(text) if any(name in text for name in names) else text
 
 
 def unspawned(package: Package, path: str) -> str:
