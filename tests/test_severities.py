@@ -277,6 +277,10 @@ SHIFTED = """<link name="tip"><collision>
   <origin pry="{}"/><geometry><box size="1 1 1"/></geometry>
 </collision></link>
 <joint name="j" type="fixed"><parent link="upper_arm"/><child link="tip"/></joint>"""
+LENS = """<link name="lens"><colision><geometry><box size="1 1 1"/></geometry></colision></link>
+<joint name="j" type="{}"><parent link="mast"/><child link="lens"/><axis xyz="1 0 0"/></joint>
+<link name="mast"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+<joint name="k" type="fixed"><parent link="upper_arm"/><child link="mast"/></joint>"""
 CLASSIC_2 = {
     "@profile": "gazebo-classic",
     "@ros2": True,
@@ -356,10 +360,13 @@ CASES: list[tuple[str, Example, str]] = [
         "warning",
     ),
     ("URD006", {"@urdf": LOST.format("<mu1>0.9</mu1><mu2>1.2</mu2><kp>1e6</kp>")}, "warning"),
-    ("URD006", {"@urdf": LOST.format("<mu1>0.01</mu1>")}, "error"),
+    ("URD006", {"@urdf": LOST.format("<mu1>0.01</mu1>")}, "warning"),
+    ("URD006", {"@urdf": LOST.format("<fdir1>1 0 0</fdir1>")}, "error"),
     ("URD006", {"@urdf": LOST.format("<mu1>1</mu1><slip1>0</slip1>")}, "info"),
     ("URD015", {"@urdf": SHIFTED.format("0 0 0")}, "info"),
     ("URD015", {"@urdf": SHIFTED.format("0 0 1")}, "error"),
+    ("URD015", {"@urdf": LENS.format("fixed")}, "warning"),
+    ("URD015", {"@urdf": LENS.format("continuous")}, "error"),
     ("PLG012", {**CLASSIC_2, "@fragment": EYE.format("image_raw")}, "warning"),
     ("PLG012", {**CLASSIC_2, "@fragment": EYE.format("front/image")}, "error"),
     (

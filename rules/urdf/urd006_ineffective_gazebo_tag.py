@@ -1,12 +1,12 @@
 """A `gazebo` tag for a link or joint that does not exist, or one without effect.
 
 Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
-change a colour, contacts or a friction of at least 0.5, near Gazebo's default of 1, is a warning,
-and so is one in a file of macros, whose user may have the link. It is an info where all that the
-tag has are the defaults of contacts, such as a friction of 1 and no slip, where no launch file of
-the workspace starts anything, as in the examples of a library of dynamics, and for a link below an
-`xacro:if` that is false. A sensor under a joint is an error, as Gazebo makes none. A
-`<ros2_control>` inside a `<gazebo>` is not read, so controllers find no joints.
+change a colour or contacts, such as a friction, is a warning, and so is one in a file of macros,
+whose user may have the link. It is an info where all that the tag has are the defaults of contacts,
+such as a friction of 1 and no slip, where no launch file of the workspace starts anything, as in
+the examples of a library of dynamics, and for a link below an `xacro:if` that is false. A sensor
+under a joint is an error, as Gazebo makes none. A `<ros2_control>` inside a `<gazebo>` is not read,
+so controllers find no joints.
 
 Fix: write the exact name of the link or joint; put elements for links under a link, and elements
 for joints under a joint; put `<ros2_control>` directly into `<robot>`.

@@ -1,7 +1,8 @@
 """An element or attribute of URDF whose name is misspelt.
 
 URDF readers ignore unknown names without a message. A link with `<colision>` touches nothing, and
-an `<origin xzy="…">` is at zero.
+an `<origin xzy="…">` is at zero. A collision that is lost of a part that is fixed to a heavier one
+with a collision, such as a camera at a chassis, is a warning.
 
 Fix: write the name as the message says.
 Source: URDF specification; urdfdom reads elements and attributes by their names
@@ -10,10 +11,12 @@ Source: URDF specification; urdfdom reads elements and attributes by their names
 
 from checker.finding import Fix
 from checker.formats.urdf.description import UrdfDescription
-from checker.formats.urdf.specification import misspelt_parts
+from checker.formats.urdf.specification import MisspeltPart, misspelt_parts
+from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 
 _ONLY_LOOKS = "link/visual"
+_COLLISION = "<collision>"
 
 
 @rule("URD015", "misspelt-urdf-part", Severity.ERROR, Concern.ROBOT)
@@ -23,15 +26,29 @@ def check(description: UrdfDescription) -> Findings:
     What only changes how a part looks is a warning, and so is a description for RViz. An attribute
     of zeros in `<origin>` is an info: they count without it too.
     """
+    robot = description.robot
     for part in misspelt_parts(description.document):
         harmless = description.for_rviz or part.path.startswith(_ONLY_LOOKS)
+        harmless = harmless or (part.meant == _COLLISION and _is_attached(part, robot))
         yield finding(
             part.span,
-            f"URDF readers do not know {part.name} in <{part.parent}>; did you mean {part.meant}?",
+            f"URDF readers do not know {part.name} in <{part.around.tag}>; did you mean "
+            f"{part.meant}?",
             severity=Severity.INFO if part.is_zero else Severity.WARNING if harmless else None,
-            key=f"{part.parent}/{part.name}",
+            key=f"{part.around.tag}/{part.name}",
             fix=Fix(Safety.UNSAFE, part.edits) if part.edits else None,
         )
+
+
+def _is_attached(part: MisspeltPart, robot: Robot) -> bool:
+    """Return whether the link is fixed to one with a collision that weighs at least as much."""
+    link = robot.links_by_name.get(part.around.get("name") or "")
+    if link is None:
+        return False
+    bodies = robot.tree.rigid_bodies.links.values()
+    body = next((it for it in bodies if link.scoped_name in it), ())
+    others = (robot.tree.links[name] for name in body if name != link.scoped_name)
+    return any(other.collisions and other.mass >= link.mass for other in others)
 
 
 def _tip(content: str) -> dict[str, str]:

@@ -109,8 +109,10 @@ def test_impossible_moments(
 def test_a_tag_for_a_link_that_is_not_there(tmp_path: Path) -> None:
     colour = '<gazebo reference="mast"><material>Gazebo/Red</material></gazebo>'
     friction = '<gazebo reference="mast"><mu1>0.1</mu1></gazebo>'
+    direction = '<gazebo reference="mast"><fdir1>1 1 0</fdir1></gazebo>'
     assert severities(checked(_BASE + colour, tmp_path))["URD006"] is Severity.WARNING
-    assert severities(checked(_BASE + friction, tmp_path))["URD006"] is Severity.ERROR
+    assert severities(checked(_BASE + friction, tmp_path))["URD006"] is Severity.WARNING
+    assert severities(checked(_BASE + direction, tmp_path))["URD006"] is Severity.ERROR
 
 
 @pytest.mark.parametrize(

@@ -57,19 +57,12 @@ _WITHOUT_EFFECT = frozenset(
         *("mu1", "mu2", "selfCollide", "self_collide"),
     }
 )
-"""Elements without which a robot moves and senses in the same way: looks, and tuned contacts.
-
-A friction below `_GRIPS` makes a difference.
-"""
-_GRIPS = 0.5
-"""Coefficient of friction from which a part holds as well as with Gazebo's default of 1."""
+"""Elements without which a robot moves and senses in the same way, or slips more or less."""
 
 
 def simulates(tag: Element) -> bool:
     """Return whether a robot moves or senses in another way without this `<gazebo>` tag."""
-    frictions = (extension_number(tag, "mu1"), extension_number(tag, "mu2"))
-    slips = any(number is not None and number.value < _GRIPS for number in frictions)
-    return slips or not _WITHOUT_EFFECT.issuperset(child.tag for child in tag.children)
+    return not _WITHOUT_EFFECT.issuperset(child.tag for child in tag.children)
 
 
 _DEFAULTS = {

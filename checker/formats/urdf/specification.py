@@ -66,7 +66,7 @@ class MisspeltPart(Record):
 
     Attributes:
         name: The name as written.
-        parent: The tag around it.
+        around: The element around it.
         meant: What it resembles, which is not there.
         span: Its place.
         path: The path of the tag around it.
@@ -75,7 +75,7 @@ class MisspeltPart(Record):
     """
 
     name: str
-    parent: str
+    around: Element
     meant: str
     span: Span
     path: str
@@ -148,7 +148,7 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
                 names = [child.name_span, child.end_name_span]
                 edits = tuple(name.replacement(meant) for name in names if name is not None)
                 name, right = f"<{child.tag}>", f"<{meant}>"
-                yield MisspeltPart(name, element.tag, right, child.span, path, edits)
+                yield MisspeltPart(name, element, right, child.span, path, edits)
         spec = _elements().get(path, {})
         # What is required and missing is reported as such.
         lost = [key for key, it in spec.items() if not it.required and element.get(key) is None]
@@ -158,7 +158,7 @@ def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
             if text is not None and meant is not None:
                 edits = (element.attribute_name_span(name).replacement(meant),)
                 zero = element.tag == "origin" and _are_zeros(text.value)
-                yield MisspeltPart(name, element.tag, meant, text.span, path, edits, zero)
+                yield MisspeltPart(name, element, meant, text.span, path, edits, zero)
 
 
 def stray_parts(document: XmlDocument) -> Iterator[StrayPart]:
