@@ -13,7 +13,18 @@ from checker.rule import Finding, Unchecked
 Said = Finding | Unchecked
 
 
-_OF_SIMULATION = ("GEO002", "GEO003", "GEO009", "GEO010", "GEO011", "INE", "KIN006", "SEN", "TRI")
+_OF_SIMULATION = (
+    "GEO002",
+    "GEO003",
+    "GEO009",
+    "GEO010",
+    "GEO011",
+    "INE",
+    "KIN006",
+    "PLG",
+    "SEN",
+    "TRI",
+)
 """Rules, and groups of rules, about what a simulator alone reads, and what it makes of it."""
 
 

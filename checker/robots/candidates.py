@@ -42,6 +42,8 @@ class Candidate(Record):
         choices: The values that it allows for these, where it names them.
         offered: The values that it allows for arguments to which it gives one of them.
         given: Arguments of each launch file that loads it, where all of them are known.
+        spawned: Whether the launch file whose arguments these are spawns a robot.
+        shown: As `given`, of launch files that spawn nothing beside those that spawn.
     """
 
     path: str
@@ -52,6 +54,8 @@ class Candidate(Record):
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     given: tuple[Mapping[str, str], ...] = ()
+    spawned: bool = False
+    shown: tuple[Mapping[str, str], ...] = ()
 
     def assumed_values(self, number: int, given: Collection[str]) -> dict[str, str]:
         """Return the values of arguments that are not given.
@@ -72,6 +76,7 @@ class StartedLoad(Record):
 
     Attributes:
         counts: Whether the launch file can run: one of ROS 1 in a package of ROS 2 cannot.
+        spawned: Whether the launch file spawns a robot in a simulator.
     """
 
     load: Load
@@ -79,6 +84,7 @@ class StartedLoad(Record):
     missing: Mapping[str, str] = field(default_factory=dict)
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    spawned: bool = False
 
 
 def may_hold_description(package: Package) -> bool:
@@ -106,8 +112,13 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
             allowed = started.choices, started.offered
             counts, by_xacro = started.counts, load.by_xacro
             given = (load.args,) if counts and not missing else ()
-            candidate = Candidate(path, load.args, counts, by_xacro, missing, *allowed, given)
+            candidate = Candidate(
+                path, load.args, counts, by_xacro, missing, *allowed, given, started.spawned
+            )
             before = chosen.get(path, candidate)
+            if before.spawned and not started.spawned:
+                chosen[path] = replace(before, shown=before.shown + given)
+                continue
             every = before.given if given and load.args in before.given else before.given + given
             # Of several ways to start it, one that is known counts before one that is not.
             known = before.missing and not missing

@@ -11,6 +11,7 @@ from checker.formats.urdf.description import UrdfDescription, read_description
 from checker.formats.xacro.expanded import ExpandedText
 from checker.formats.xacro.expansion import Expander, Expansions, Wanted
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
+from checker.model.robot import OTHERS_SIMULATED
 from checker.package.package import Package
 from checker.robots.further_values import alternatives, defaults, further_values
 from checker.source.xml import XmlDocument
@@ -34,6 +35,7 @@ class Made(Record, eq=False):
         allowed: Values that a launch file allows for arguments, by name.
         loaded: Whether a launch file loads it.
         launched: What other launch files make of the file.
+        shown: What launch files make of it that spawn nothing, beside those that spawn it.
     """
 
     wish: Wanted
@@ -41,6 +43,7 @@ class Made(Record, eq=False):
     allowed: Mapping[str, tuple[str, ...]]
     loaded: bool = False
     launched: Sequence[Wanted] = ()
+    shown: Sequence[Wanted] = ()
 
     @property
     def read(self) -> Sequence[XmlDocument]:
@@ -65,7 +68,8 @@ class Made(Record, eq=False):
 
     def is_launched(self, name: str, value: str) -> bool:
         """Return whether another launch file gives a value, or leaves it as the default."""
-        given = (self.values_of(wish).get(name, "") for wish in self.launched)
+        wishes = (*self.launched, *self.shown)
+        given = (self.values_of(wish).get(name, "") for wish in wishes)
         return value.lower() in map(str.lower, given)
 
     def unloaded(self, name: str, value: str) -> str:
@@ -89,13 +93,13 @@ def other_robots(
         given: Names of the arguments that the user gives: these have one value.
     """
     by_launch = [
-        (wish, in_words(others), "")
+        (wish, in_words(others), "", "" if wish in robot.launched else OTHERS_SIMULATED)
         for robot in made
-        for wish in robot.launched
+        for wish in (*robot.launched, *robot.shown)
         if (others := robot.values_of(wish))
     ]
     single = [
-        (robot.with_value(name, value), f"{name}:={value}", robot.unloaded(name, value))
+        (robot.with_value(name, value), f"{name}:={value}", robot.unloaded(name, value), "")
         for robot in sorted(made, key=_importance)
         for name, value in _further_values(package, robot)
         if name not in given and not robot.is_launched(name, value)
@@ -104,7 +108,7 @@ def other_robots(
     wanted = [wish for wish, *_ in tried]
     outcomes = Expansions(package, wanted, expander).outcomes() if wanted else []
     known = {(robot.wish.path, robot.document.source.text) for robot in made}
-    for (wish, values, unloaded), outcome in zip(tried, outcomes, strict=True):
+    for (wish, values, unloaded, shown), outcome in zip(tried, outcomes, strict=True):
         if isinstance(outcome, XacroFault) and outcome.kind not in _OF_THE_USER:
             yield replace(outcome, message=f"{outcome.message} (with {values})")
         elif isinstance(outcome, XmlDocument) and outcome.root.child("link"):
@@ -113,7 +117,7 @@ def other_robots(
                 continue
             known.add(key)
             read = read_description(outcome, wish.path, for_rviz=False)
-            yield replace(read, values=values, unloaded=unloaded)
+            yield replace(read, values=values, unloaded=unloaded, shown_only=shown)
 
 
 def in_words(values: Mapping[str, str]) -> str:

@@ -214,7 +214,14 @@ class PackageDescriptions:
         allowed = {it.path: {**it.choices, **it.offered} for it in self._candidates}
         loaded = {it.path for it in self._candidates if it.loaded}
         made = [
-            Made(self._taken[path], outcome, allowed[path], path in loaded, self._launched(path))
+            Made(
+                self._taken[path],
+                outcome,
+                allowed[path],
+                path in loaded,
+                self._given(path),
+                self._given(path, shown=True),
+            )
             for path, outcome in expanded.items()
             if isinstance(outcome, XmlDocument) and outcome.root.tag == "robot"
         ]
@@ -336,18 +343,22 @@ class PackageDescriptions:
     def _take_fullest(self, expanded: dict[str, Outcome]) -> None:
         """Take, of the robots that launch files make of one file, the one with most plugins."""
         for path, outcome in expanded.items():
-            if isinstance(outcome, XmlDocument) and (wishes := self._launched(path)):
+            if isinstance(outcome, XmlDocument) and (wishes := self._given(path)):
                 made = self._taken[path], outcome
                 found = fullest(self._package, self._expander, made, wishes)
                 self._taken[path], expanded[path] = found
 
-    def _launched(self, path: str) -> list[Wanted]:
-        """Return what launch files make of a file, without what is taken of it."""
+    def _given(self, path: str, *, shown: bool = False) -> list[Wanted]:
+        """Return what launch files make of a file, without what is taken of it.
+
+        Args:
+            path: The path of the file.
+            shown: Only of launch files that spawn nothing beside those that spawn it.
+        """
         taken = self._taken[path]
         candidate = next(it for it in self._candidates if it.path == path)
-        wishes = (
-            self._wish(replace(candidate, args=args)) for args in candidate.given[:_WAYS_LIMIT]
-        )
+        given = candidate.shown if shown else candidate.given
+        wishes = (self._wish(replace(candidate, args=args)) for args in given[:_WAYS_LIMIT])
         same = (replace(wish, as_melodic=taken.as_melodic) for wish in wishes)
         return [wish for wish in same if wish != taken]
 

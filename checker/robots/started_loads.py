@@ -17,6 +17,7 @@ from checker.launch.ros2.package_launch import is_ros2_only, launches_naming
 from checker.package.package import Package
 from checker.robots.candidates import StartedLoad
 from checker.robots.other_robots import TRIED_LIMIT
+from checker.robots.shown_only import SPAWNS
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
@@ -28,17 +29,18 @@ _LOADS = re.compile(r"\.(?:urdf|xacro)\b|robot_description")
 def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[StartedLoad]:
     """Yield what launch files load; those of the package come first, then others of ROS 2.
 
-    Last come the files that other choices of arguments lead to.
+    Of both, those that spawn a robot in a simulator come before those for RViz or hardware. Last
+    come the files that other choices of arguments lead to.
 
     Args:
         package: The package being checked.
         ros2: What its own launch files of ROS 2 start, if it has any.
     """
-    graphs = ros2.entries if ros2 is not None else ()
+    graphs = sorted(ros2.entries if ros2 is not None else (), key=_spawns_nothing)
     own = [(graph, load) for graph in graphs for load in _loaded(package, graph, "")]
     theirs = [
         (graph, load)
-        for other, graph in launches_naming(package)
+        for other, graph in sorted(launches_naming(package), key=lambda it: _spawns_nothing(it[1]))
         for load in _loaded(other, graph, f"../{other.name}/")
     ]
     yield from (load for _, load in own)
@@ -48,12 +50,18 @@ def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[Started
     yield from islice({each.load.path: each for each in others}.values(), TRIED_LIMIT)
 
 
+def _spawns_nothing(graph: LaunchGraph) -> bool:
+    return all(node.executable.value not in SPAWNS for node in graph.nodes_and_spawns)
+
+
 def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[StartedLoad]:
     from checker.launch.ros2.descriptions import loaded_descriptions
 
     for described in loaded_descriptions(package, graph):
         missing = dict.fromkeys(described.unknown, f"{folder}{described.node.file}")
-        yield StartedLoad(described.load, True, missing, described.choices, described.offered)
+        allowed = described.choices, described.offered
+        spawned = not _spawns_nothing(graph)
+        yield StartedLoad(described.load, True, missing, *allowed, spawned)
 
 
 def _of_other_choices(

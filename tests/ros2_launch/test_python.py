@@ -541,12 +541,15 @@ def test_packages_of_both_generations_keep_the_files_of_both(tmp_path: Path) -> 
         assert [*launch_files(opened.packages[0])] == ["launch/two.launch"]
 
 
-def test_the_distribution_of_the_package_is_that_of_the_environment(read: Read) -> None:
+@pytest.mark.parametrize("others", [{"Dockerfile": "FROM ros:jazzy\n"}, {}])
+def test_the_distribution_that_is_judged_is_that_of_the_environment(
+    read: Read, others: dict[str, str]
+) -> None:
     graph = read(
         "name = 'new' if os.environ['ROS_DISTRO'] == 'jazzy' else 'old'\n"
         "return LaunchDescription([Node(package='p', executable=name),\n"
         "    Node(package='p', executable=EnvironmentVariable('ROS_DISTRO'))])",
-        others={"Dockerfile": "FROM ros:jazzy\n"},
+        others=others,
     )
     assert [node.executable.value for node in graph.nodes] == ["new", "jazzy"]
 

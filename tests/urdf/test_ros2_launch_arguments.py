@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import find_settings
@@ -75,6 +76,23 @@ def test_a_missing_argument_names_the_launch_file_that_asks_for_it(tmp_path: Pat
     told = [reason for reason in reasons if words in reason]
     assert len(told) == 1
     assert not [f for f in report.findings if f.rule == "URD001"]
+
+
+def test_a_launch_file_that_spawns_counts_before_one_that_shows(tmp_path: Path) -> None:
+    package = package_with(tmp_path, ", default_value='small'")
+    shown = (package / "launch/view.launch.py").read_text()
+    spawn = "        Node(package='ros_gz_sim', executable='create',\n"
+    spawn += "             arguments=['-topic', 'robot_description']),\n    ])"
+    (package / "launch/zone.launch.py").write_text(shown.replace("    ])\n", spawn + "\n"))
+    (package / "launch/view.launch.py").write_text(shown.replace("wide:=true", "wide:=false"))
+    plugin = '<gazebo><plugin filename="ign_ros2_control-system" name="A"/></gazebo>'
+    choice = f'<xacro:unless value="$(arg wide)">{plugin}</xacro:unless></robot>'
+    (package / "urdf/r.urdf.xacro").write_text(XACRO.replace("</robot>", choice))
+    report = judged(package)
+    assert report.facts["links"] == 2
+    (found,) = (it for it in report.findings if it.rule == "PLG002")
+    assert found.severity is Severity.WARNING
+    assert found.message.endswith("(Gazebo gets another description)")
 
 
 @pytest.mark.parametrize("value", ['"small"', "true"])

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from msgspec.structs import replace
 
+from checker.base.resources import table
 from checker.launch.ros2 import package_files
 from checker.launch.ros2.actions.gathered import FileRead, Gathered
 from checker.launch.ros2.actions.visitor import Visitor
@@ -39,6 +40,7 @@ from checker.launch.ros2.values import (
     Unknown,
     Value,
 )
+from checker.package.detected_target import detect_target
 from checker.package.files_above import README, files_around
 from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
@@ -242,12 +244,12 @@ class LaunchReader:
 
     @cached_property
     def _variables(self) -> Mapping[str, str]:
-        """What a README tells users to set, and the distribution."""
+        """What a README tells users to set, and the distribution that the package is judged for."""
         sources = [*files_around(self._package, README)]
         exports = [match for it in sources for match in _EXPORT.finditer(it.text)]
         found = {match[1]: match[2] for match in reversed(exports)}
-        sign = self._package.distribution_sign
-        return found if sign is None else {**found, "ROS_DISTRO": sign.distro}
+        distro = detect_target(self._package).distro or table("profiles")["ros2"]["distro"]
+        return {**found, "ROS_DISTRO": distro}
 
 
 def _as_late(fault: LaunchFault, context: Context) -> LaunchFault:
