@@ -277,6 +277,25 @@ SHIFTED = """<link name="tip"><collision>
   <origin pry="{}"/><geometry><box size="1 1 1"/></geometry>
 </collision></link>
 <joint name="j" type="fixed"><parent link="upper_arm"/><child link="tip"/></joint>"""
+CONFLICT = {
+    "@ros2": True,
+    "arm/__init__.py": "",
+    "arm/tools.py": "<<<<<<< HEAD\nb = 1\n=======\nb = 2\n>>>>>>> other\n",
+}
+EKF = f"""ekf:
+  ros__parameters:
+    two_d_mode: true  ?
+    imu0_config: [{", ".join(["true"] * 15)}]
+"""
+SCAN = '<launch><node pkg="acme_tools" exec="{}"/></launch>'
+PLANAR = """<link name="eye"/>
+<joint name="j" type="fixed"><parent link="base_link"/><child link="eye"/></joint>
+<link name="post"><visual><origin xyz="0.3 0 0"/>
+  <geometry><box size="0.02 0.02 1"/></geometry></visual></link>
+<joint name="k" type="fixed"><parent link="eye"/><child link="post"/></joint>
+<gazebo reference="eye"><sensor name="scan" type="gpu_lidar"><ray>
+  <scan><horizontal><samples>720</samples><min_angle>-1</min_angle><max_angle>1</max_angle>
+  </horizontal></scan><range><min>0.1</min><max>10</max></range></ray></sensor></gazebo>"""
 LENS = """<link name="lens"><colision><geometry><box size="1 1 1"/></geometry></colision></link>
 <joint name="j" type="{}"><parent link="mast"/><child link="lens"/><axis xyz="1 0 0"/></joint>
 <link name="mast"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
@@ -363,6 +382,12 @@ CASES: list[tuple[str, Example, str]] = [
     ("URD006", {"@urdf": LOST.format("<mu1>0.01</mu1>")}, "warning"),
     ("URD006", {"@urdf": LOST.format("<fdir1>1 0 0</fdir1>")}, "error"),
     ("URD006", {"@urdf": LOST.format("<mu1>1</mu1><slip1>0</slip1>")}, "info"),
+    ("PKG024", {**CONFLICT, "arm/run.py": "from arm import shapes\n"}, "warning"),
+    ("PKG024", {**CONFLICT, "arm/run.py": "from arm import tools\n"}, "error"),
+    ("WIR025", {"@bridge": True, "config/ekf.yaml": EKF.replace("?", "")}, "warning"),
+    ("WIR025", {"@bridge": True, "config/ekf.yaml": EKF.replace("?", "\n    # imu0: imu")}, "info"),
+    ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("view")}, "warning"),
+    ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("scan_filter")}, "info"),
     ("URD015", {"@urdf": SHIFTED.format("0 0 0")}, "info"),
     ("URD015", {"@urdf": SHIFTED.format("0 0 1")}, "error"),
     ("URD015", {"@urdf": LENS.format("fixed")}, "warning"),

@@ -9,6 +9,8 @@ several rows often do, and programs that use them filter these points.
 What the plane only touches, such as the edge of a post that ends there, is not reported. A level
 lidar in the plane of the ground, where the wheels touch it, is: it sees the ground at every bump.
 
+It is an info where a launch file starts a node that filters scans, such as those of laser_filters.
+
 The rule casts up to 576 rays over the scan at the robot's visuals, with all joints in their initial
 position; those of a lidar of Gazebo Classic without GPU (`type="ray"`) at its collisions.
 
@@ -19,8 +21,10 @@ physics engine; costmap_2d, obstacle layer: each reading within its range marks 
 """
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 
+from checker.launch.ros2.graph import Node, Ros2Launch
 from checker.model.locomotion.rolling_parts import rolling_parts
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Lidar
@@ -37,12 +41,14 @@ _LEVEL = 0.99
 """Part along z of the axis of a level lidar, at least."""
 _FLAT = 0.01
 """Elevation of the rays, radians, below which the scan is a plane."""
+_FILTER = re.compile(r"(?:laser|scan)_?filter")
+"""Names of packages and programs that take readings out of scans."""
 _SINGLE = 1
 """Horizontal samples of a range finder, such as a cliff sensor."""
 
 
 @rule("SEN029", "robot-in-scan-plane", Severity.WARNING, Concern.INTERFACE)
-def check(seen: SensorViews, *, most: float = 0.3) -> Findings:
+def check(seen: SensorViews, launch: Ros2Launch | None, *, most: float = 0.3) -> Findings:
     """Report lidars of one row with rays that end at the robot.
 
     Options:
@@ -55,7 +61,7 @@ def check(seen: SensorViews, *, most: float = 0.3) -> Findings:
         if ground is not None and _is_on_ground(view.mounted, ground):
             yield _on_ground(view.mounted)
         elif cut and view.hidden_share <= most:
-            yield _finding(view.mounted, cut)
+            yield _finding(view.mounted, cut, _scan_filter(launch))
     if planar and seen.unseen:
         yield unchecked(seen.unseen[0])
 
@@ -101,14 +107,23 @@ def _is_planar(lidar: Lidar | None) -> bool:
     return lidar.vertical.samples.value <= 1 and lidar.horizontal.samples.value > _SINGLE
 
 
-def _finding(mounted: Mounted, hits: Sequence[Hit]) -> Finding:
+def _scan_filter(launch: Ros2Launch | None) -> Node | None:
+    """Return a node of the launch files that filters scans, if there is one."""
+    nodes = launch.nodes if launch is not None else ()
+    return next((it for it in nodes if any(map(_FILTER.search, it.program))), None)
+
+
+def _finding(mounted: Mounted, hits: Sequence[Hit], filtering: Node | None) -> Finding:
     sensor = mounted.sensor
     nearest = min(hits, key=lambda hit: hit.metres)
     share, parts = sum(hit.share for hit in hits), "; ".join(_parts(hits))
+    name = filtering.executable.value if filtering is not None else ""
+    removed = f" ({name} has to remove them)" if name else ""
     return finding(
         sensor.pose,
         f"lidar {sensor.name.value!r} sees the robot itself in {share:.1%} "
-        f"of its rays, expected none: {parts}",
+        f"of its rays, expected none: {parts}{removed}",
+        severity=Severity.INFO if filtering is not None else None,
         related=[(nearest.by[1], f"this {nearest.by[1].element.tag}")],
     )
 

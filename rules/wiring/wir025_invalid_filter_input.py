@@ -5,7 +5,8 @@ missing. With each belongs `odom0_config`: fifteen truth values in five rows, fo
 yaw, their velocities, and the accelerations. The node does not count them: of a shorter list it
 reads on behind the end, and the sensor's use is left to chance. Numbers or texts in place of truth
 values end the node. A topic without a list is not used ("all update variables are false"), nor is
-a list without a topic.
+a list without a topic: an info where the topic is commented out in the file, as of a sensor that is
+not used for now.
 
 Fix: write fifteen of `true` and `false`; number the topics from 0 without a gap.
 Source: robot_localization, src/ros_filter.cpp, `loadUpdateConfig` and `loadParams`.
@@ -41,12 +42,20 @@ def check(package: Package) -> Findings:
                 yield from _judged(block.node, name, parameter)
                 is_used = parameter.type != "bool_array" or _is_used(parameter)
                 if match[1] not in {*given, *launched} and is_used:
-                    yield finding(
-                        parameter.key,
-                        f"{block.node} does not use {name}: there is no {match[1]}; write "
-                        f"`{match[1]}:` with the topic",
-                    )
+                    yield _without_topic(block.node, match[1], parameter)
         yield from _unused_topics(block, given | launched)
+
+
+def _without_topic(node: str, topic: str, parameter: Parameter) -> Finding:
+    """Return the finding of a list whose topic is missing."""
+    lines = map(str.strip, parameter.key.source.text.splitlines())
+    left_out = any(it.startswith("#") and it.lstrip("# ").startswith(f"{topic}:") for it in lines)
+    lack = f"{topic} is commented out" if left_out else f"there is no {topic}"
+    return finding(
+        parameter.key,
+        f"{node} does not use {parameter.name}: {lack}; write `{topic}:` with the topic",
+        severity=Severity.INFO if left_out else None,
+    )
 
 
 def _judged(node: str, name: str, parameter: Parameter) -> Iterator[Finding]:
@@ -125,4 +134,5 @@ BAD = [
     _filter(f"odom0_config: [{', '.join(['1, 0, 0'] * 5)}]{_MARK}\n    odom0: odom"),
     _filter(f"odom0_config: [{', '.join(['true, true, true'] * 5)}]{_MARK}"),
     _filter(f"imu2: imu/raw{_MARK}"),
+    _filter(f"#odom0: odom\n    odom0_config: [{', '.join(['true, true, true'] * 5)}]{_MARK}"),
 ]
