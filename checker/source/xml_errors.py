@@ -277,6 +277,11 @@ def _line(source: SourceText, at: int) -> int:
     return Span(source, at, at).line
 
 
+_NO_VALUE = (
+    r"<[\w:.-]{1,100}(?:\s{1,9}[\w:.-]{1,100}\s{0,9}=\s{0,9}(?:\"[^\"<]{0,200}\"|'[^'<]{0,200}'))"
+    r"{0,20}\s{1,9}[\w:.-]{1,100}\s{0,99}\Z"
+)
+"""A tag that ends in a name after its attributes."""
 _CAUSES: tuple[tuple[re.Pattern[str], re.Pattern[str], str], ...] = tuple(
     (re.compile(before), re.compile(after), hint)
     for before, after, hint in (
@@ -290,6 +295,7 @@ _CAUSES: tuple[tuple[re.Pattern[str], re.Pattern[str], str], ...] = tuple(
         (r"<[^<>]{0,200}[\s\"'][\w:.-]{1,100}\s*\Z", r"/?>|[\w:.-]", "an attribute needs a value"),
         (r"=\s*([\"'])[^\"'<>]{0,200}\1\Z", r"[\w:]", "attributes need a space between them"),
         (r"=\s*([\"'])[^\"']{0,200}\1\s*\Z", r"<", "the tag before this is not closed by >"),
+        (_NO_VALUE, r"<", "an attribute before this has no value, and its tag is not closed by >"),
         (r"=\s*([\"'])[^<]{0,200}\Z", r"<", "the closing quote of a value before this is missing"),
         (r"<[\w:.-]{1,100}\s*\Z", r"<", "the tag before this is not closed by >"),
         (r"<\Z", r"/[\w:]", "there is no element left to close"),

@@ -7,6 +7,9 @@ in collision. A virtual joint whose child is not the root of the robot is skippe
 part of the robot, and a planar or floating base cannot be planned. Often links or joints were
 renamed in the URDF alone.
 
+An SRDF that a launch file loads, and whose robot has another name than that of the URDF, is a
+warning: MoveIt logs "Semantic description is not specified for the same robot as the URDF".
+
 A joint, a chain or a group that a group loses is an error where a launch file loads the SRDF. The
 robot is that of the URDF that launch files load or that `.setup_assistant` names, and those with
 the name of the SRDF; the name must be unknown in all of them, and not one that their xacro files
@@ -59,6 +62,20 @@ def check(semantic: SemanticDescription) -> Findings:
         lost = [same for same in worst if same[0].loss is loss]
         yield from _several(semantic, lost) if len(lost) > _MANY else _each(semantic, lost)
     yield from _beside_root(semantic)
+    yield from _of_another_robot(semantic)
+
+
+def _of_another_robot(semantic: SemanticDescription) -> Iterator[Finding]:
+    """Report the name of a loaded SRDF that none of the robots has."""
+    names = sorted({robot.name.value for robot in semantic.robots})
+    stated = semantic.root.attribute("name")
+    if stated is not None and semantic.is_loaded and semantic.robot not in names:
+        yield finding(
+            stated,
+            f"the SRDF is for robot {semantic.robot!r}, but the URDF is robot {names[0]!r}: MoveIt "
+            f'logs an error; write name="{names[0]}"',
+            severity=Severity.WARNING,
+        )
 
 
 def _each(semantic: SemanticDescription, lost: Iterable[Sequence[NamedPart]]) -> Iterator[Finding]:
@@ -167,7 +184,24 @@ def _xacro(content: str, mark: str = "") -> dict[str, object]:
     }
 
 
+_ASSISTANT = """moveit_setup_assistant_config:
+  urdf: {package: acme_arm_description, relative_path: urdf/arm.urdf}
+  srdf: {relative_path: config/arm.srdf}
+"""
+
+
+def _named(name: str, mark: str = "") -> dict[str, object]:
+    """Return an SRDF, loaded by its path, with the file of MoveIt's assistant."""
+    return {
+        **_srdf(""),
+        ".setup_assistant": _ASSISTANT,
+        "launch/plan.launch.py": "# loads config/arm.srdf\n",
+        "config/arm.srdf": f'<robot name="{name}">{mark}\n<group name="all"/>\n</robot>\n',
+    }
+
+
 GOOD = [
+    _named("arm"),
     _xacro('<group name="arm"><joint name="${prefix}shoulder"/></group>'),
     _srdf(_group('<joint name="shoulder"/>', _BASE.format("base_link", ""))),
     _srdf(_group('<joint name="fixture"/>', _BASE.format("base_link", ""))),
@@ -191,6 +225,7 @@ GOOD = [
     },
 ]
 BAD = [
+    _named("lift", _MARK),
     _srdf(_group(f'<joint name="sholder"/>{_MARK}')),
     _srdf(_group(f'<joint name="elbow"/>{_MARK}'), loaded=False),
     _srdf(_group(f'<link name="hand"/>{_MARK}')),

@@ -40,6 +40,7 @@ FAULTS = [
     ("<a>&#1;</a>", "1:4", "this number is not a character"),
     ("<a>é a < b</a>", "1:9", "write &lt; for <"),
     ('<a n="q/>\n<b m="x"/></a>', "2:1", "closing quote"),
+    ('<a n="q" m\n<b/></a>', "2:1", "an attribute before this has no value"),
     ("<a b=1/>", "1:6", "needs quotes"),
     ("<a é=“1”/>", "1:6", "needs quotes"),
     ("<a b/>", "1:5", "needs a value"),
