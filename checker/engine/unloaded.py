@@ -14,16 +14,8 @@ Said = Finding | Unchecked
 
 
 _OF_SIMULATION = (
-    "GEO002",
-    "GEO003",
-    "GEO009",
-    "GEO010",
-    "GEO011",
-    "INE",
-    "KIN006",
-    "PLG",
-    "SEN",
-    "TRI",
+    *("GEO002", "GEO003", "GEO009", "GEO010", "GEO011", "KIN006"),
+    *("INE", "PLG", "SEN", "TRI"),
 )
 """Rules, and groups of rules, about what a simulator alone reads, and what it makes of it."""
 

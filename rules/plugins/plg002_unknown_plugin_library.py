@@ -62,7 +62,7 @@ def check(host: PluginHost, package: Package, context: Context, spawned: Spawned
     in_classic = spawned.is_in_classic(robot) if robot is not None else None
     if in_classic is not None and in_classic is not context.is_classic:
         return
-    clause = spawned.without(robot) if robot is not None else ""
+    clause = "" if robot is None or robot.never_simulated else spawned.without(robot)
     for each in found:
         yield _lessened(each, clause) if clause and isinstance(each, Finding) else each
 
