@@ -7,20 +7,27 @@ command reaches them. The description was written for RViz, or for the real robo
 It is reported where the description that a launch file spawns has no plugin outside of its sensors
 and no `<ros2_control>`.
 
-Fix: add a drive: `libgazebo_ros_diff_drive.so` in Gazebo Classic, `gz-sim-diff-drive-system` in
-Gazebo Sim, or `<ros2_control>` with the plugin that reads it, which arms need; and the sensors that
-are needed.
-Source: gazebo_plugins; gz-sim, systems/diff_drive; gz_ros2_control.
+Fix: add what the message names, with `<ros2_control>` the plugin that reads it; and the sensors
+that are needed. Wheels on parallel axes need a diff drive, wheels on crossing axes a planar drive,
+and an arm `<ros2_control>`.
+Source: gazebo_plugins; gz-sim, systems/diff_drive and velocity_control; gz_ros2_control.
 """
 
+from collections.abc import Sequence
+
 from checker.base.words import and_list
-from checker.ros.spawned import SpawnedRobot
+from checker.model.components import Joint
+from checker.model.robot import Robot
+from checker.ros.spawned import CLASSIC_SPAWNS, SpawnedRobot
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _FEWEST = 2
 """Wheels on joints that turn without end, or joints of an arm."""
 _OF_ARMS = ("revolute", "prismatic")
+_PARALLEL = 0.99
+"""Cosine of the angle between two axes of wheels, at least."""
+_CONTROL = "<ros2_control> with a command interface for each joint"
 
 
 @rule("WIR020", "spawned-without-drive", Severity.WARNING, Concern.INTERFACE)
@@ -31,21 +38,43 @@ def check(wiring: Wiring) -> Findings:
         if not spawned.node.starts or _is_moved(spawned):
             continue
         wheels = {link.scoped_name for link in robot.wheels}
-        turning = (it.child for it in robot.tree.ties if it.joint.type.value == "continuous")
-        rolling = [repr(child) for child in turning if child in wheels]
+        ties = [it for it in robot.tree.ties if it.joint.type.value == "continuous"]
+        rolling = [it for it in ties if it.child in wheels]
         joints = [it.name.value for it in robot.joints if it.type.value in _OF_ARMS]
         if len(rolling) >= _FEWEST:
-            lacks = f"a drive: no plugin and no ros2_control turns {and_list(rolling)}"
+            names = and_list([repr(it.child) for it in rolling])
+            lacks = f"a drive: no plugin and no ros2_control turns {names}"
+            advice = _drive(robot, [it.joint for it in rolling], spawned.node.program)
         elif len(joints) >= _FEWEST:
             some = f"{joints[0]!r} to {joints[-1]!r}"
             lacks = f"control: no plugin and no ros2_control holds its {len(joints)} joints, {some}"
+            advice = _CONTROL
         else:
             continue
         yield finding(
             spawned.node.span,
-            f"Gazebo gets robot {robot.name.value!r} without {lacks}",
+            f"Gazebo gets robot {robot.name.value!r} without {lacks}; add {advice}",
             related=[(robot.name.span, "the robot")],
         )
+
+
+def _drive(robot: Robot, wheels: Sequence[Joint], program: tuple[str, str]) -> str:
+    """Return the plugin that drives wheels on such axes, in the simulator that a node spawns to."""
+    in_classic = program in CLASSIC_SPAWNS
+    if _cross(robot, wheels):
+        plugin = "libgazebo_ros_planar_move.so" if in_classic else "gz-sim-velocity-control-system"
+        return f"{plugin}, as the axes of the wheels cross, or {_CONTROL}"
+    return "libgazebo_ros_diff_drive.so" if in_classic else "gz-sim-diff-drive-system"
+
+
+def _cross(robot: Robot, wheels: Sequence[Joint]) -> bool:
+    """Return whether two wheels turn on axes that are not parallel, as of an omni-wheel base."""
+    found = (robot.axis_in_model(joint, axis) for joint in wheels for axis in joint.axes)
+    axes = [axis for axis in found if axis is not None]
+    return any(
+        abs(sum(a * b for a, b in zip(axes[0], other, strict=True))) < _PARALLEL
+        for other in axes[1:]
+    )
 
 
 def _is_moved(spawned: SpawnedRobot) -> bool:
