@@ -6,8 +6,9 @@ straight, and points from sensors on moving links are in wrong places. The node 
 launch file that shows the robot in RViz alone.
 
 It is reported for nodes that start with the defaults of all arguments, one robot with joints that
-move, and no ros2_control. WIR016 reports two publishers of the same joint states. With
-`source_list`, joint_state_publisher collects what others publish: then nothing is reported.
+move, and no controller manager: a `<ros2_control>` tag alone starts none. WIR016 reports two
+publishers of the same joint states. With `source_list`, joint_state_publisher collects what others
+publish: then nothing is reported.
 
 Fix: let Gazebo publish the joint states, and remove joint_state_publisher. In Gazebo Classic that
 is the plugin libgazebo_ros_joint_state_publisher.so; in Gazebo Sim the system JointStatePublisher
@@ -17,13 +18,14 @@ Source: joint_state_publisher; gazebo_plugins, gazebo_ros_joint_state_publisher.
 
 from checker.base.words import and_list, count
 from checker.model.robot import Robot
+from checker.model.ros_parameters import MANAGER
 from checker.ros.ros2_control.robot_control import runs_manager
 from checker.ros.unread import unread_files
 from checker.ros.wiring.joint_states import JOINT_STATE, PROGRAMS, invented
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.wiring import Wiring
 from checker.rule import Concern, Findings, Severity, finding, rule
-from checker.rulebook.example_parts import ros2_control
+from checker.rulebook.example_parts import gazebo_control, ros2_control
 
 _NAMED = 3
 
@@ -55,7 +57,9 @@ def _simulated(wiring: Wiring) -> list[Robot]:
 def _may_publish(wiring: Wiring, robot: Robot) -> bool:
     """Return whether anything else may publish the joint states of a robot in Gazebo."""
     bridges = wiring.simulation.bridges.unread if wiring.simulation is not None else ()
-    controlled = robot.element.child("ros2_control") or any(map(runs_manager, robot.plugins))
+    managers = (it.node.package.value == MANAGER for it in wiring.every_node)
+    has_tag = robot.element.child("ros2_control") is not None
+    controlled = (has_tag and any(managers)) or any(map(runs_manager, robot.plugins))
     others = (
         each
         for each in wiring.endpoints
@@ -100,10 +104,12 @@ def _rover(more: str, parts: str = "", kind: str = "continuous") -> dict[str, ob
     }
 
 
+_MANAGER = '        Node(package="controller_manager", executable="ros2_control_node"'
 _MARK = "  # ^ LCH027\n             "
 GOOD = [
     _rover("", kind="fixed"),
-    _rover("", ros2_control()),
+    _rover("", ros2_control() + gazebo_control("")),
+    _rover(f"),\n{_MANAGER}", ros2_control()),
     _rover(' parameters=[{"source_list": ["rover/joint_states"]}]'),
     _rover(' condition=IfCondition("false")'),
     {**_rover("", _SYSTEM), "@bridge": _BRIDGE},
@@ -111,5 +117,6 @@ GOOD = [
 BAD = [
     _rover(_MARK),
     _rover(_MARK, _SYSTEM),
+    _rover(_MARK, ros2_control()),
     _rover(f'{_MARK}parameters=[{{"rate": 30}}]'),
 ]
