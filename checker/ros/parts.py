@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from msgspec.structs import replace
 
 from checker.base.parts import Ask, NotAvailable, part
@@ -84,11 +86,27 @@ def _without_control(files: UrdfFiles) -> str:
 def configured_controllers(
     controls: tuple[RobotControl, ...] | NotAvailable, reader: ControlReader
 ) -> tuple[ConfiguredControllers, ...] | NotAvailable:
-    """Return the controllers of each robot, or those of launch files if no robot can be read."""
+    """Return the controllers of each robot, or those of launch files if no robot can be read.
+
+    Files of the launch that name no joint of a robot are added to the others of the launch.
+    """
     if not isinstance(controls, NotAvailable):
-        return tuple(it.configured for it in controls)
+        return tuple(_configured(controls, reader))
     files = tuple(reader.launched_files()) if controls.applicable else ()
     return (ConfiguredControllers(files),) if files else controls
+
+
+def _configured(
+    controls: tuple[RobotControl, ...], reader: ControlReader
+) -> Iterator[ConfiguredControllers]:
+    taken = {file.path for it in controls for file in it.files}
+    others = tuple(it for it in reader.launched_files() if it.path not in taken)
+    launched = [any(file.path in reader.launched for file in it.files) for it in controls]
+    for control, is_launched in zip(controls, launched, strict=True):
+        files = (*control.files, *others) if is_launched else control.files
+        yield ConfiguredControllers(files, control.robot)
+    if others and not any(launched):
+        yield ConfiguredControllers(others)
 
 
 @part

@@ -140,6 +140,8 @@ _JOINTS = "    left_wheel_names: [shoulder]\n    right_wheel_names: [shoulder]\n
 _SIZES = "    wheel_radius: 0.1\n    wheel_separation: 0.5\n"
 _BLOCK = "\n  ros__parameters:\n"
 _MARK = "  # ^ R2C010"
+_MANAGER = """        Node(package='controller_manager', executable='ros2_control_node',
+             parameters=[in_package('config', 'arm.yaml')])"""
 
 
 def _trajectories(parameters: str, interface: str = "velocity") -> object:
@@ -178,6 +180,17 @@ grip:{_MARK}
 """,
     },
     _arm(_MARK + _BLOCK + _JOINTS),
+    {
+        "@ros2": f"{_MANAGER},",
+        "urdf/arm.urdf.xacro": f'<robot name="arm"><link name="base"/>{ros2_control()}</robot>',
+        "config/arm.yaml": f"""controller_manager:
+  ros__parameters:
+    arm: {{type: forward_command_controller/ForwardCommandController}}
+arm:{_MARK}
+  ros__parameters:
+    first_joint: shoulder_pan
+""",
+    },
     _trajectories(f"joints: [shoulder]{_MARK}"),
     _trajectories(f"joints: [shoulder]{_MARK}\n    gains: {{shoulder: {{p: 0.0}}}}", "effort"),
     _arm(f"{_BLOCK}{_JOINTS}    wheel_radius: 0.1\n    wheel_separation: 1{_MARK}"),
