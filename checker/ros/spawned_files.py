@@ -19,7 +19,7 @@ from checker.model.robot import Robot
 from checker.model.ros_parameters import MANAGER
 from checker.package.package import Package
 from checker.robots.unspawned import may_load_others
-from checker.ros.ros2_control.launched import MANAGER_NODE
+from checker.ros.ros2_control.launched import MANAGER_NODE, may_start
 from checker.ros.servers import is_gazebo
 from checker.ros.spawned import CLASSIC_SPAWNS, EVERY_SPAWN, is_state_publisher, spawned_otherwise
 from checker.ros.unread import unread_files
@@ -127,6 +127,17 @@ class SpawnedFiles(Record, eq=False, dict=True):
         path = f"../{holder.name}/{place.file}" if holder is not self.package else place.file
         own = f"../{self.package.name}/"
         return replace(place, file=posixpath.normpath(path).removeprefix(own))
+
+    def starts_for_others(self, robot: Robot, controller: str) -> bool:
+        """Return whether launch files start a controller, and those of this robot certainly not."""
+        own, others = False, False
+        for graph, loaded in self._graphs:
+            files = set(map(self._file, loaded))
+            is_own, starts = robot.document.source.file in files, may_start(graph, controller)
+            if starts and (is_own or not files):
+                return False
+            own, others = own or is_own, others or starts
+        return own and others
 
     def is_spawned(self, robot: Robot) -> bool:
         """Return whether a launch file that loads a robot starts what spawns it into Gazebo."""

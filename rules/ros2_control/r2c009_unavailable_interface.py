@@ -2,8 +2,10 @@
 
 A controller claims the interfaces of its joints when it is activated: `wheel_joint/velocity`. If a
 `<ros2_control>` tag offers no such interface, activation fails and the joints do not move. For a
-controller that no launch file names, this is a warning: nothing starts it. A package with one robot
-and no controllers is compared with those of the only other package that configures its joints.
+controller that no launch file names, this is a warning: nothing starts it. A controller that launch
+files start for other robots alone, with which this one shares a file, does not count. A package
+with one robot and no controllers is compared with those of the only other package that configures
+its joints.
 
 Fix: write one name of the joint in URDF, `<ros2_control>` and controller, or add the
 `<command_interface>` or `<state_interface>` that the controller needs: drives need `velocity` of
@@ -25,6 +27,7 @@ from checker.ros.ros2_control.claims import Claim, claims_of, sensors_of
 from checker.ros.ros2_control.distributions import is_mock, is_of_gazebo
 from checker.ros.ros2_control.hardware import WITH_PID, HardwareJoint
 from checker.ros.ros2_control.robot_control import RobotControl
+from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import (
     Concern,
     Finding,
@@ -43,7 +46,7 @@ _PLACEHOLDER = re.compile(r"<\w+>")
 
 
 @rule("R2C009", "unavailable-interface", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, package: Package) -> Findings:
+def check(control: RobotControl, package: Package, spawned: SpawnedFiles) -> Findings:
     """Report what controllers of ros2_controllers need and do not find.
 
     Where no plugin of the robot names the file, it may be for another robot: a warning. So is what
@@ -54,6 +57,8 @@ def check(control: RobotControl, package: Package) -> Findings:
     suggestions = Suggestions(control.components)
     for controller in control.controllers or control.beside:
         for fault in _faults(control, controller, suggestions):
+            if spawned.starts_for_others(control.robot, controller.name):
+                break
             if not control.is_named:
                 yield replace(fault, severity=Severity.WARNING)
             elif controller.name not in package.workspace.launch_words:

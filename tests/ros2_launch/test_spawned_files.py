@@ -32,6 +32,21 @@ CHOSEN = f"""<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
 <xacro:if value="$(arg sim)">{SIM}</xacro:if>
 </robot>
 """
+SENSING = """<ros2_control name="arm" type="system">
+  <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+  {}
+</ros2_control>
+"""
+NAMING = SIM.replace(
+    "/>", "><parameters>$(find acme_rover_bringup)/config/both.yaml</parameters></plugin>"
+)
+BOTH = """controller_manager:
+  ros__parameters:
+    imu_broadcaster: {type: imu_sensor_broadcaster/IMUSensorBroadcaster}
+imu_broadcaster:
+  ros__parameters: {sensor_name: imu, frame_id: base_link}
+"""
+LOADED = '<executable cmd="ros2 control load_controller imu_broadcaster"/>'
 OTHER = """<package format="3">
   <name>arm_tests</name>
   <export><build_type>ament_cmake</build_type></export>
@@ -113,6 +128,29 @@ def test_manager_of_another_package(tmp_path: Path) -> None:
     (found,) = report("R2C005", files, tmp_path).findings
     assert found.places[0].file.endswith("urdf/arm.urdf.xacro")
     assert found.places[1].file.endswith("../arm_tests/launch/arm.launch.xml")
+
+
+@pytest.mark.parametrize(
+    ("real", "more", "count"),
+    [
+        ("", {}, 0),
+        (LOADED, {}, 1),
+        ("", {"launch/all.launch.xml": f"<launch>{LOADED}</launch>"}, 1),
+    ],
+    ids=["of the other", "of both", "alone"],
+)
+def test_controller_of_another_robot(
+    tmp_path: Path, real: str, more: dict[str, str], count: int
+) -> None:
+    files = {
+        "urdf/arm.urdf": robot(SENSING.format(""), NAMING),
+        "urdf/more.urdf": robot(SENSING.format('<sensor name="imu"/>'), NAMING),
+        "config/both.yaml": BOTH,
+        "launch/arm.launch.xml": launch("arm.urdf", CREATE, real),
+        "launch/more.launch.xml": launch("more.urdf", CREATE, LOADED),
+        **more,
+    }
+    assert len(findings("R2C009", files, tmp_path)) == count
 
 
 def test_unknown_library(tmp_path: Path) -> None:

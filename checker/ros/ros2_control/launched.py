@@ -14,7 +14,7 @@ from checker.model.ros_parameters import MANAGER
 from checker.package.package import Package
 from checker.ros.ros2_control.robot_control import ControlReader, RobotControl, runs_manager
 from checker.ros.spawned import EVERY_SPAWN, SpawnedReader
-from checker.ros.unread import unread_parts
+from checker.ros.unread import unread_files, unread_parts
 from checker.source.text import Located, Span
 
 MANAGER_NODE = "ros2_control_node"
@@ -97,6 +97,16 @@ def spawner_of(node: Node) -> Spawner | None:
             names.append(word)
     known = all(is_known(word.value) for word in node.arguments)
     return Spawner(node, tuple(names), options, known and not node.unread)
+
+
+def may_start(graph: LaunchGraph, controller: str) -> bool:
+    """Return whether a launch file, conditions aside, may start or load a controller."""
+    spawners = [it for it in map(spawner_of, graph.nodes_and_spawns) if it is not None]
+    if any(unread_files(graph)) or not all(it.complete for it in spawners):
+        return True
+    words = (word for process in graph.processes for word in process.words)
+    names = (name for spawner in spawners for name in spawner.names)
+    return any(it.value == controller for it in (*words, *names))
 
 
 def launched_files(package: Package, graphs: Iterable[LaunchGraph]) -> dict[str, Span]:
