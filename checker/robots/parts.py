@@ -39,6 +39,8 @@ _WITHOUT_ROBOT = {
     PackageKind.UNKNOWN: "the package contains no robot",
     PackageKind.MUJOCO_MODEL: "the robot is a model of MuJoCo (MJCF)",
 }
+_SCENERY = ("light", "actor")
+"""What an SDF file may contain instead of a model, to be included in worlds."""
 
 
 class ModelFile(Record, eq=False):
@@ -203,7 +205,8 @@ def plain_robots(package: Package, model: ModelFile, ask: Ask) -> PlainRobots | 
         )
     kind = "model that moves" if read.worlds else "model"
     reason = read.missing or f"{model.document.source.file} contains no {kind}"
-    return NotAvailable(reason, applicable=not read.worlds)
+    is_scenery = any(model.document.root.child(tag) is not None for tag in _SCENERY)
+    return NotAvailable(reason, applicable=not (read.worlds or is_scenery))
 
 
 def _described(package: Package, ask: Ask) -> PlainRobots | NotAvailable:

@@ -74,6 +74,17 @@ def test_a_model_that_is_urdf_by_its_root_is_said_to_be_unread(tmp_path: Path) -
     assert any("model.sdf is URDF by its root element" in reason for reason in reasons(report))
 
 
+def test_a_model_file_with_a_lamp_alone_has_no_robot_to_read(tmp_path: Path) -> None:
+    lamp = '<sdf version="1.9"><light type="point" name="lamp"/></sdf>'
+    config = "<model><name>lamp</name><sdf version='1.9'>model.sdf</sdf></model>"
+    (tmp_path / "lamp").mkdir()
+    (tmp_path / "lamp/model.sdf").write_text(lamp)
+    (tmp_path / "lamp/model.config").write_text(config)
+    (report,) = check_package(tmp_path / "lamp", Settings(trial=False)).packages
+    assert report.verdict is not VerdictKind.INCOMPLETE
+    assert report.blind_spots == ()
+
+
 def test_a_package_without_robot_is_not_ready(tmp_path: Path) -> None:
     report = checked(WITHOUT_ROBOT, tmp_path)
     assert report.verdict is VerdictKind.INCOMPLETE
