@@ -8,7 +8,8 @@ and `package://` in robot descriptions, and for `rclpy`, messages and a few modu
 `cv_bridge`, that nodes in Python import; other modules in Python are not checked. So it does for
 packages of ROS and of the workspace that CMakeLists.txt requires without a condition, and for those
 of controllers and Gazebo's hardware, unless another package of the workspace declares them, or only
-comments name the file with the controllers. One of the workspace that the build requires is an
+comments name the file with the controllers. Hardware that another package of the workspace exports
+is of that package. One of the workspace that the build requires is an
 error: colcon, which takes the order from package.xml, builds both at once, and a build from scratch
 stops.
 Dependencies of a declared metapackage such as ros_gz count as declared. What a declared package of
@@ -54,7 +55,7 @@ from checker.package.submissions import is_slip_for, robot_of
 from checker.package.teams import teams
 from checker.robots.urdf_files import UrdfFiles
 from checker.ros.ros2_control.distributions import distribution_of
-from checker.ros.ros2_control.plugin_packages import plugin_uses
+from checker.ros.ros2_control.plugin_packages import plugin_uses, uses_beside
 from checker.rule import (
     Concern,
     Context,
@@ -137,7 +138,7 @@ def check(
         if not (ament and _is_of_folder(package, use.package_name))
         if use.place.file not in unloaded
     ]
-    uses += _plugins(package, context) if ament else ()
+    uses += (*_plugins(package, context), *uses_beside(package)) if ament else ()
     former = former_names(package, uses)
     copied = {use.place for use in duplicate_files(package)}  # PKG012: to be replaced, not declared
     for use in uses:
@@ -448,6 +449,16 @@ except ImportError:
     CvBridge = None
 """
 
+_DRIVEN = """<robot name="arm">
+  <ros2_control name="arm" type="system">
+    <hardware><plugin>acme_driver/Arm</plugin></hardware>  <!-- ^ PKG007 -->
+  </ros2_control>
+</robot>
+"""
+_EXPORTED = """<library path="acme_driver">
+  <class name="acme_driver/Arm" base_class_type="hardware_interface::SystemInterface"/>
+</library>
+"""
 _CONTROL = """controller_manager:
   ros__parameters:
     arm_controller:
@@ -581,6 +592,13 @@ BAD = [
         "@profile": "ros2",
     },
     {"launch/vehicle_topics.launch": _launch("subt_ros"), "@reported": [".:1"]},
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz"),
+        "urdf/arm.xacro": _DRIVEN,
+        "../acme_driver/package.xml": "<package><name>acme_driver</name></package>",
+        "../acme_driver/driver.xml": _EXPORTED,
+    },
     # Its own former name.
     {
         "@ros2": _BRIDGE,

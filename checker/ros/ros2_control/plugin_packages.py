@@ -10,8 +10,9 @@ from checker.package.dependencies import Use
 from checker.package.mentions import has_file
 from checker.package.package import Package
 from checker.ros.ros2_control.distributions import controller_types, hardware_classes, is_mock
+from checker.ros.ros2_control.exported_hardware import exported_hardware, owner_of
 from checker.source.text import SourceText, Span, without_comments
-from checker.source.xml import XmlDocument
+from checker.source.xml import Element, XmlDocument
 
 _TYPE = re.compile(r"""^\s{1,40}type:[ \t]{1,8}["']?([a-z]\w{0,99}/[A-Z]\w{0,99})\b""", re.M)
 
@@ -32,12 +33,27 @@ def plugin_uses(package: Package) -> Iterator[Use]:
         for match in known if known and not _is_commented_out(package, file.path) else ():
             place = Span(source, *match.span(1)).place()
             yield Use(controller_types()[match[1]].package, place, f"controller {match[1]}")
+    for element in _plugins(package):
+        kind = hardware_classes().get(element.value)
+        if kind is not None and not is_mock(kind.name):
+            yield Use(kind.package, element.text.span.place(), f"hardware {kind.name}")
+
+
+def uses_beside(package: Package) -> Iterator[Use]:
+    """Yield the packages of the workspace that export the hardware of robots."""
+    for element in _plugins(package):
+        name = element.value
+        owner = package.workspace.package(owner_of(name)) if "/" in name else None
+        if owner is not None and name in (exported for exported, _ in exported_hardware(owner)):
+            yield Use(owner_of(name), element.text.span.place(), f"hardware {name}")
+
+
+def _plugins(package: Package) -> Iterator[Element]:
     for file in package.index.with_suffix(".urdf", ".xacro"):
         document = package.xml(file.path)
         for element in document.elements if isinstance(document, XmlDocument) else ():
-            kind = hardware_classes().get(element.value) if element.tag == "plugin" else None
-            if kind is not None and not is_mock(kind.name):
-                yield Use(kind.package, element.text.span.place(), f"hardware {kind.name}")
+            if element.tag == "plugin":
+                yield element
 
 
 def _is_commented_out(package: Package, path: str) -> bool:
