@@ -74,6 +74,7 @@ def test_the_report_beside_a_sample_is_read_back(name: str) -> None:
     assert json.loads(to_json(report_from_json(json.dumps(said)))) == said
 
 
+@pytest.mark.slow
 def test_reports_of_samples_read_back_are_told_the_same(of_samples: Report) -> None:
     again = report_from_json(to_json(of_samples))
     bare = held(of_samples)
