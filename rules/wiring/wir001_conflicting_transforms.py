@@ -7,7 +7,8 @@ Gazebo Classic, a drive controller of ros2_control) and a filter that uses its o
 both publish `odom` to the base unless this is switched off in one of them; `slam_toolbox` and
 `amcl` publish `map` to `odom`, which a `static_transform_publisher` must not. The joints of the
 robot are transforms as well: a `static_transform_publisher` that repeats one, or odometry that ends
-at `base_link` where that is a child of `base_footprint`, is a second transform.
+at `base_link` where that is a child of `base_footprint`, is a second transform. One that puts a
+link above its own parent closes a loop, in which lookups fail until another node moves a frame.
 
 It is reported where both are started with the defaults of all arguments, and the frames of both
 are known from their parameters.
@@ -20,6 +21,7 @@ Source: tf2, `BufferCore::setTransform`; gazebosim/gz-sim issue 2372; robot_loca
 `publish_tf`; ros2_controllers, `enable_odom_tf`; slam_toolbox, `transform_publish_period`.
 """
 
+from collections.abc import Iterator
 from itertools import combinations
 
 from checker.model.components import Joint
@@ -27,7 +29,7 @@ from checker.ros.wiring.frames import is_static
 from checker.ros.wiring.nodes import WiredNode
 from checker.ros.wiring.transforms import Transform
 from checker.ros.wiring.wiring import Wiring
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.rulebook.example_parts import DRIVEN_URDF, tf_bridge
 
 _ByFrame = dict[tuple[str, str], list[Transform]]
@@ -50,6 +52,31 @@ def check(wiring: Wiring) -> Findings:
                     f"{_fault(first, second)}: {_cure(first, second, by_frame)}",
                     key=f"{first.child} {first.by} {second.by}",
                     related=[(second.span, f"{second.by} publishes {second}")],
+                )
+    yield from _loops(by_frame)
+
+
+def _loops(by_frame: _ByFrame) -> Iterator[Finding]:
+    """Report static transforms that put a link below one that the robot has below it."""
+    joints = {
+        (child, topic): transform
+        for (child, topic), same in by_frame.items()
+        for transform in same
+        if isinstance(transform.source, Joint)
+    }
+    statics = (it for same in by_frame.values() for it in same if is_static(it))
+    for static in statics:
+        frame, passed = static.parent, set[str]()
+        while (joint := joints.get((frame, static.topic))) and frame not in passed:
+            passed.add(frame)
+            frame = joint.parent
+            if frame == static.child:
+                yield finding(
+                    static.span,
+                    f"transform {static} of {static.by} closes a loop, in which lookups fail: the "
+                    f"robot has {static.parent!r} below {frame!r}; {static.cure}",
+                    key=f"loop {static}",
+                    related=[(joint.span, f"{joint.by} publishes {joint}")],
                 )
 
 
@@ -383,6 +410,7 @@ BAD = [
     _component("true", _XML_MARK),
     _static('"--frame-id", "base_link", "--child-frame-id", "lidar_link"', _MARK),
     _static('"0", "0", "0.1", "0", "0", "0", "base_link", "lidar_link"', _MARK),
+    _static('"0", "0", "0.1", "0", "0", "0", "lidar_link", "base_link"', _MARK),
     _static('"0", "0", "0", "0", "0", "0", "1", "base_footprint", "lidar_link"', _MARK),
     _on_footprint("publish_tf: true", _MARK),
     {
