@@ -2,14 +2,15 @@
 
 The robot does not move: a topic connects publishers and readers of one type only. From Jazzy on,
 drive controllers read only `TwistStamped`, while teleop_twist_keyboard, teleop_twist_joy and Nav2
-of Jazzy publish `Twist` unless a parameter is set; a bridge to Gazebo reads the type that is
-configured.
+of Jazzy publish `Twist` unless a parameter is set, and twist_mux `TwistStamped` unless
+`use_stamped: false` is; a bridge to Gazebo reads the type that is configured.
 
 It is reported where no known node of the launch reads the type that is published. If the launch
 starts unknown nodes, this is a warning: one of them may read it.
 
 Fix: state the parameter that the message names, or put twist_stamper between the two.
-Source: ros2_controllers, navigation2, teleop_twist_keyboard and teleop_twist_joy by distribution.
+Source: ros2_controllers, navigation2, teleop_twist_keyboard, teleop_twist_joy and twist_mux by
+distribution.
 """
 
 from checker.ros.ros2_control.distributions import distribution_of
@@ -106,6 +107,10 @@ _COMPONENT = """LaunchDescription([
             ComposableNode(package="teleop_twist_joy", plugin="teleop_twist_joy::TeleopTwistJoy",
                 parameters=[{"publish_stamped_twist": @}])]),%
 """
+_MUX = """LaunchDescription([
+        Node(package="twist_mux", executable="twist_mux", remappings=[("cmd_vel_out", "cmd_vel")],@
+             parameters=[{"topics": {"joy": {"topic": "a", "timeout": 1.0, "priority": 9}}}@]),
+"""
 _IMPORTS = "from launch_ros.actions import Node\n"
 _MORE = """from launch_ros.actions import LoadComposableNodes, Node
 from launch_ros.descriptions import ComposableNode
@@ -117,7 +122,13 @@ def _component(stamped: str, mark: str = "") -> dict[str, object]:
     return {"@bridge": _TO_GAZEBO.format("Twist"), "@launch": launch}
 
 
+def _mux(mark: str, more: str) -> dict[str, object]:
+    launch = _MUX.replace("@", mark, 1).replace("@", more)
+    return {"@bridge": _TO_GAZEBO.format("Twist"), "@launch": {_HEAD: launch}}
+
+
 GOOD = [
+    _mux("", ', {"use_stamped": False}'),
     _component("False"),
     _bridged_example("Twist"),
     _bridged_example("TwistStamped", _STAMPED),
@@ -126,6 +137,7 @@ GOOD = [
     _controlled_example(_ELSEWHERE),
 ]
 BAD = [
+    _mux(_MARK, ""),
     _component("True", _MARK),
     _bridged_example("TwistStamped", mark=_MARK),
     _bridged_example("Twist", f"{_STAMPED},{_MARK}\n"),
