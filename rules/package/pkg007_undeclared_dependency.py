@@ -138,7 +138,7 @@ def check(
         if not (ament and _is_of_folder(package, use.package_name))
         if use.place.file not in unloaded
     ]
-    uses += (*_plugins(package, context), *uses_beside(package)) if ament else ()
+    uses += _plugins(package, context) if ament else ()
     former = former_names(package, uses)
     copied = {use.place for use in duplicate_files(package)}  # PKG012: to be replaced, not declared
     for use in uses:
@@ -176,12 +176,13 @@ def _is_of_folder(package: Package, name: str) -> bool:
 
 def _plugins(package: Package, context: Context) -> Iterator[Use]:
     """Yield packages of controllers and hardware that no package of the workspace declares."""
-    uses = [*plugin_uses(package)]
+    own = [*uses_beside(package)]
+    uses = [*plugin_uses(package), *own]
     manifests = [Paperwork(other).manifest for other in package.other_packages if uses]
     for use in uses:
         name = use.package_name
         declared = any(it and (it.depends_on(name) or _brought(it, name)) for it in manifests)
-        if not declared and distribution_of(context) in distributions_with(name):
+        if not declared and (use in own or distribution_of(context) in distributions_with(name)):
             yield use
 
 
@@ -451,14 +452,17 @@ except ImportError:
 
 _DRIVEN = """<robot name="arm">
   <ros2_control name="arm" type="system">
-    <hardware><plugin>acme_driver/Arm</plugin></hardware>  <!-- ^ PKG007 -->
+    <hardware><plugin>acme_driver/Arm</plugin></hardware>{}
   </ros2_control>
 </robot>
 """
-_EXPORTED = """<library path="acme_driver">
+_DRIVER = {
+    "../acme_driver/package.xml": "<package><name>acme_driver</name></package>",
+    "../acme_driver/driver.xml": """<library path="acme_driver">
   <class name="acme_driver/Arm" base_class_type="hardware_interface::SystemInterface"/>
 </library>
-"""
+""",
+}
 _CONTROL = """controller_manager:
   ros__parameters:
     arm_controller:
@@ -497,6 +501,13 @@ GOOD = [
         "package.xml": _arm("ros_gz"),
         "config/arm.yaml": _CONTROL,
         "../acme_arm_control/package.xml": _arm("ros2_controllers").replace("_bringup", "_control"),
+    },
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz"),
+        "urdf/arm.xacro": _DRIVEN.format(""),
+        **_DRIVER,
+        "../acme_arm_control/package.xml": _package("acme_arm_control", "acme_driver"),
     },
     {
         "@ros2": _BRIDGE,
@@ -595,9 +606,8 @@ BAD = [
     {
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz"),
-        "urdf/arm.xacro": _DRIVEN,
-        "../acme_driver/package.xml": "<package><name>acme_driver</name></package>",
-        "../acme_driver/driver.xml": _EXPORTED,
+        "urdf/arm.xacro": _DRIVEN.format("  <!-- ^ PKG007 -->"),
+        **_DRIVER,
     },
     # Its own former name.
     {
