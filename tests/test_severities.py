@@ -296,6 +296,13 @@ PLANAR = """<link name="eye"/>
 <gazebo reference="eye"><sensor name="scan" type="gpu_lidar"><ray>
   <scan><horizontal><samples>720</samples><min_angle>-1</min_angle><max_angle>1</max_angle>
   </horizontal></scan><range><min>0.1</min><max>10</max></range></ray></sensor></gazebo>"""
+TURNING = """<link name="arm"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><geometry><box size="1 1 1"/></geometry></visual>
+<collision><geometry><box size="1 1 1"/></geometry></collision></link>
+<joint name="j" type="continuous"><parent link="base_link"/><child link="arm"/></joint>"""
+DISPLAYED = """Node(package='robot_state_publisher', executable='robot_state_publisher',
+parameters=[{'robot_description': Command(['xacro ', in_package('urdf', 'arm.urdf.xacro')])}]),"""
 LENS = """<link name="lens"><colision><geometry><box size="1 1 1"/></geometry></colision></link>
 <joint name="j" type="{}"><parent link="mast"/><child link="lens"/><axis xyz="1 0 0"/></joint>
 <link name="mast"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
@@ -388,6 +395,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("WIR025", {"@bridge": True, "config/ekf.yaml": EKF.replace("?", "\n    # imu0: imu")}, "info"),
     ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("view")}, "warning"),
     ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("scan_filter")}, "info"),
+    ("URD007", spawned(TURNING), "error"),
+    ("URD007", {**spawned(TURNING), "@ros2": DISPLAYED}, "info"),
     ("URD015", {"@urdf": SHIFTED.format("0 0 0")}, "info"),
     ("URD015", {"@urdf": SHIFTED.format("0 0 1")}, "error"),
     ("URD015", {"@urdf": LENS.format("fixed")}, "warning"),

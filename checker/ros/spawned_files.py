@@ -169,6 +169,10 @@ class SpawnedFiles(Record, eq=False, dict=True):
         mine = {id(node) for graph in self.own for node in graph.nodes_and_spawns}
         return later if as_many and mine.issuperset(map(id, later)) else ()
 
+    def is_certainly_spawned(self, robot: Robot) -> bool:
+        """Return whether a launch file spawns a robot with the defaults of its arguments."""
+        return any(it.node.starts for it in self._certain_of(robot))
+
     def is_in_both(self, robot: Robot) -> bool:
         """Return whether launch files spawn a robot into Classic, and into a later Gazebo."""
         return {it.in_classic for it in self._certain_of(robot)} == {True, False}

@@ -4,13 +4,16 @@ Gazebo drops a link without `<inertial>`, or with a mass of zero, with its senso
 below it, unless a fixed joint merges it into a link that has a mass. Frames of sensors are merged,
 so they need no inertial. URD012 reports an `<inertial>` without `<mass>`. In a URDF without a
 `<gazebo>` element this is a warning: other tools keep such links. It is an info if no launch file
-of the workspace gives the URDF to a simulator.
+of the workspace gives the URDF to a simulator, and an error if a launch file spawns a robot whose
+first link is dropped: nothing of it remains.
 
 Fix: give each link that moves an `<inertial>`, a `<collision>` and a `<visual>`.
 Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children links ignored".
 """
 
 from collections.abc import Iterator
+
+from msgspec.structs import replace
 
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.fixed_joints import Lumping
@@ -19,6 +22,7 @@ from checker.model.robot import Robot
 from checker.model.values import parse_number
 from checker.package.package import Package
 from checker.physics.mass.even_inertia import inertial_fix
+from checker.ros.spawned_files import SpawnedFiles
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _NO_LINK = "world"
@@ -26,7 +30,12 @@ _NO_LINK = "world"
 
 @rule("URD007", "link-dropped-by-gazebo", Severity.ERROR, Concern.ROBOT)
 def check(
-    description: UrdfDescription, package: Package, context: Context, *, share: float = 0.01
+    description: UrdfDescription,
+    package: Package,
+    context: Context,
+    spawned: SpawnedFiles,
+    *,
+    share: float = 0.01,
 ) -> Findings:
     """Report links without inertia, and links with mass that lack shapes.
 
@@ -47,9 +56,23 @@ def check(
         if any(map(_has_unread_mass, links)) or _has_second_parents(robot, links):
             continue  # URD012 or KIN002 says what is wrong with it.
         if not any(link.mass for link in links):
-            yield _left_out(description, robot.links_by_name[name], links, severity, grave)
+            found = _left_out(description, robot.links_by_name[name], links, severity, grave)
+            is_lost = not robot.shown_only and _is_first(robot, name)
+            is_lost = is_lost and spawned.is_certainly_spawned(robot)
+            yield _with_nothing_left(found) if is_lost else found
         elif robot.mass > 0 and sum(link.mass for link in links) >= share * robot.mass:
             yield from _without_shapes(robot.links_by_name[name], links)
+
+
+def _is_first(robot: Robot, link: str) -> bool:
+    """Return whether no joint is above a link, and all other links are below it."""
+    below = {joint.child.value for joint in robot.joints}
+    return [it for it in robot.links_by_name if it not in below] == [link]
+
+
+def _with_nothing_left(found: Finding) -> Finding:
+    message = f"{found.message}: nothing remains of the robot that a launch file spawns"
+    return replace(found, message=message, severity=Severity.ERROR)
 
 
 def _has_unread_mass(link: Link) -> bool:
