@@ -25,7 +25,7 @@ from checker.rulebook.example_parts import GAZEBO, SHOULDER, ros2_control
 def check(control: RobotControl, context: Context, spawned: SpawnedFiles) -> Findings:
     """Report joints with the same command interface in two `<ros2_control>` tags."""
     simulated = any(is_of_gazebo(it.plugin.value) for it in control.hardware)
-    if simulated and control.by_default and spawned.manager_outside(control.robot):
+    if simulated and control.by_default and [*spawned.managers_outside(control.robot)]:
         return
     lost = "is not loaded" if is_from(distribution_of(context), "iron") else "does not move"
     first: dict[str, tuple[Hardware, HardwareJoint]] = {}

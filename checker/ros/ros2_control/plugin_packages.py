@@ -49,10 +49,12 @@ def uses_beside(package: Package) -> Iterator[Use]:
 
 
 def _plugins(package: Package) -> Iterator[Element]:
+    """Yield what names a plugin of ros2_control: `<transmission>` elsewhere is of ROS 1."""
     for file in package.index.with_suffix(".urdf", ".xacro"):
         document = package.xml(file.path)
         for element in document.elements if isinstance(document, XmlDocument) else ():
-            if element.tag == "plugin":
+            around = element.parent.tag if element.parent is not None else ""
+            if element.tag == "plugin" and around != "transmission":
                 yield element
 
 
