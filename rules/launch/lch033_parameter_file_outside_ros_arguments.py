@@ -21,7 +21,7 @@ _START, _OPTION = "--ros-args", "--params-file"
 _PROGRAMS = (".py", ".cpp", ".cc", ".hpp", ".h")
 
 
-@rule("LCH034", "parameter-file-outside-ros-arguments", Severity.WARNING, Concern.INTERFACE)
+@rule("LCH033", "parameter-file-outside-ros-arguments", Severity.WARNING, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report `--params-file` among the words that are not for ROS."""
     for graph in launch.entries:
@@ -57,7 +57,7 @@ def _given(words: str, mark: str = "") -> dict[str, object]:
 
 
 _FILE = "'--params-file', in_package('config', 'mux.yaml')"
-_MARK = "  # ^ LCH034"
+_MARK = "  # ^ LCH033"
 _READER = {
     "@ros2": _NODE.replace("'twist_mux'", "'acme_arm_bringup'", 1).replace("@", _FILE),
     "scripts/twist_mux.py": "parser.add_argument('--params-file')\n",

@@ -18,7 +18,7 @@ from checker.source.xml_positions import XmlFault
 _BESIDE = "../"
 
 
-@rule("LCH033", "broken-description-of-another-package", Severity.ERROR, Concern.INTERFACE)
+@rule("LCH032", "broken-description-of-another-package", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report each broken description of another package once for each launch file."""
     for graph in launch.entries:
