@@ -6,6 +6,7 @@ full name. A `name` or a namespace in the launch file changes the full name: the
 
 The rule reports a file if a block has the usual name of the program, or the node's name in another
 namespace, and no node of the launch reads it; or if no node of the launch reads any of its blocks.
+Nodes that an argument switches off by default are read too.
 
 Fix: write the same name in both files. `/**` before a name matches any namespace, and the key `/**`
 matches every node, as in the examples.
@@ -28,7 +29,7 @@ _COSTMAPS = ("local_costmap", "global_costmap")
 @rule("WIR003", "unused-parameter-file", Severity.WARNING, Concern.INTERFACE)
 def check(wiring: Wiring) -> Findings:
     """Report nodes that get nothing of a file, where the file was meant for them."""
-    for node in wiring.nodes:
+    for node in wiring.every_node:
         for file in node.files if _is_alone(node) else ():
             orphans = _orphans(wiring, node, file)
             meant = next((block for block in orphans if _is_meant(block, node)), None)
@@ -118,6 +119,10 @@ _REWRITTEN = """
 """
 _IN_ROVER = _IN_NAMESPACE.partition("\n             parameters")[0] + _REWRITTEN
 _LIDAR = ("acme_lidar", "lidar_node")
+_SWITCHED_OFF = {
+    _HEAD: _NODE.format(*_LIDAR, f' name="lidar",{_MARK}\n condition=IfCondition("false"),'),
+    _IMPORTS: f"from launch.conditions import IfCondition\n{_IMPORTS}",
+}
 GOOD = [
     _component(' name="amcl",'),
     _component(""),
@@ -153,4 +158,5 @@ BAD = [
     },
     _example("laser", f' name="lidar",{_MARK}', *_LIDAR),
     _example("rover/lidar", f' name="lidar",{_MARK}', *_LIDAR),
+    {**_example("lidar_node", ""), "@launch": _SWITCHED_OFF},
 ]
