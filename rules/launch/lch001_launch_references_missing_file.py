@@ -9,7 +9,8 @@ its parameter: `output_file`. Launch skips a parameter file whose path is empty.
 MoveItConfigsBuilder stops without the SRDF, kinematics.yaml and joint_limits.yaml. Where a
 condition leaves the action out, for files that only RViz shows or that `.gitignore` excludes, for
 files of a node that has a parameter about saving, and for paths passed to a launch file that is not
-available, unless it starts Gazebo, this is a warning.
+available, unless it starts Gazebo, this is a warning. So it is where a README tells users to put
+files of their own into that folder: `map_saver_cli -f src/acme_rover/maps/mine`.
 
 A package that no ROS distribution has and package.xml does not declare, and of which every file
 that is used is in this package, is taken as the former name of this package, unless a README tells
@@ -39,6 +40,7 @@ from checker.package.dependencies import former_names
 from checker.package.git_ignored import ignored_by
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
+from checker.package.user_files import put_there_by
 from checker.rule import (
     Concern,
     Finding,
@@ -86,11 +88,13 @@ def check(launch: Ros2Launch, package: Package, paperwork: Paperwork) -> Finding
                 hint = f": {found} is not installed there" if found else _others(package, named)
                 ignored = ignored_by(package, named.path.path)
                 kept_out = f": {ignored} keeps it out of the repository" if ignored else ""
+                readme = put_there_by(package, named.path.package, named.path.path)
+                own = f"; {readme} tells users to put such a file there" if readme else ""
                 yield finding(
                     named,
-                    f"{what} {named.path} does not exist{hint or kept_out}",
+                    f"{what} {named.path} does not exist{hint or kept_out or own}",
                     severity=None
-                    if str(named.path) in needed and not ignored
+                    if str(named.path) in needed and not ignored and not readme
                     else Severity.WARNING,
                     fix=None if found or ignored else _renamed(package, named),
                 )

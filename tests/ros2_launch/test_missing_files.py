@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from checker.pipeline import check_package
 from checker.settings import Settings
 from tests.ros2_launch.conftest import CMAKE, NAME, PACKAGE_XML, python
@@ -32,6 +34,31 @@ def test_a_condition_makes_no_finding_of_its_own(tmp_path: Path) -> None:
     (report,) = check_package(tmp_path / NAME, settings).packages
     (found,) = report.findings
     assert found.message.endswith("does not exist; config has lift_real.yaml")
+
+
+@pytest.mark.parametrize(
+    ("command", "severity"),
+    [
+        (f"ros2 run nav2_map_server map_saver_cli -f ~/ws/src/{NAME}/config/hall", "warning"),
+        (f"cp lift.yaml {NAME}/config/", "warning"),
+        (f"cp {NAME}/config/lift.yaml /tmp/", "error"),
+        (f"ls {NAME}/config/", "error"),
+    ],
+)
+def test_a_file_that_users_make_is_a_warning(command: str, severity: str, tmp_path: Path) -> None:
+    files = {
+        "package.xml": PACKAGE_XML,
+        "CMakeLists.txt": CMAKE,
+        "launch/lift.launch.py": "from launch.conditions import IfCondition\n" + python(_BODY),
+        "README.md": f"```bash\n{command}\n```\n",
+    }
+    for name, text in files.items():
+        path = tmp_path / NAME / name
+        path.parent.mkdir(exist_ok=True, parents=True)
+        path.write_text(text)
+    settings = Settings(trial=False, select=("LCH001",))
+    (report,) = check_package(tmp_path / NAME, settings).packages
+    assert [str(found.severity) for found in report.findings] == [severity]
 
 
 def test_a_launch_file_outside_of_packages_takes_files_by_its_own_path(tmp_path: Path) -> None:
