@@ -5,7 +5,8 @@ the bridge makes `<model>/<link>/<sensor>` of it. robot_state_publisher publishe
 their own names: RViz shows nothing, and mapping and navigation drop the messages. It is reported
 for lidars, cameras, IMUs, magnetometers and receivers of satellite navigation that the launch file
 bridges, of a robot whose transforms come from the same description, unless a launch file of the
-workspace names the frame. From Garden on, `<optical_frame_id>` of a `<camera>` names it too.
+workspace names the frame. A stated frame is also compared with the links where the launch file
+starts no robot_state_publisher. From Garden on, `<optical_frame_id>` of a `<camera>` names it too.
 
 Fix: write `<gz_frame_id>` (in Fortress `<ignition_frame_id>`, from Ionic on `<frame_id>`) with the
 name of the link into the sensor; of a camera, that of its optical link.
@@ -20,8 +21,11 @@ from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType, frame_elements, frame_of, stated_frame
 from checker.package.package import Package
+from checker.robots.urdf_files import UrdfFiles
+from checker.ros.broadcast_frames import is_broadcast
 from checker.ros.simulation import Simulation, Simulations
-from checker.ros.spawned import SpawnedRobot
+from checker.ros.spawned import SpawnedRobot, is_state_publisher
+from checker.ros.wiring.wiring import Wirings
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml_insertion import append_to
 
@@ -31,33 +35,72 @@ _WITH_FRAME = (SensorType.IMU, SensorType.MAGNETOMETER, SensorType.NAVSAT)
 
 
 @rule("BRG009", "sensor-frame-not-in-tf", Severity.WARNING, Concern.INTERFACE)
-def check(simulations: Simulations, package: Package, context: Context) -> Findings:
+def check(
+    simulations: Simulations,
+    package: Package,
+    context: Context,
+    files: UrdfFiles | None,
+    wirings: Wirings | None,
+) -> Findings:
     """Report the sensors whose frame is no link."""
-    texts = package.workspace.launch_texts.values()
     for simulation in simulations.launched:
         for spawned in simulation.robots:
-            if spawned.publisher is None or _may_publish_more(simulation, spawned):
+            if _may_publish_more(simulation, spawned):
                 continue
             for sensor in spawned.robot.sensors:
                 if not _counts(sensor) or not _is_bridged(simulation, sensor):
                     continue
                 stated = stated_frame(sensor.element, context.release)
-                if stated is None and not any(f"/{sensor.name.value}" in text for text in texts):
-                    model = spawned.name or "<model>"
-                    tag, frame = frame_elements(context.release)[0], _frame(sensor, spawned.robot)
-                    yield finding(
-                        sensor,
-                        f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
-                        f"the frame {model}/<link>/{sensor.name.value}, which no transform "
-                        f"names; expected <{tag}>{frame}",
-                        fix=_stated(sensor, f"<{tag}>{frame}</{tag}>", frame),
-                    )
-                elif stated is not None and _is_unknown(stated.value, spawned):
-                    yield finding(
-                        stated,
-                        f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
-                        f"the frame {stated.value!r}, which is not a link of the robot",
-                    )
+                if stated is None:
+                    yield from _unstated(sensor, spawned, package, context)
+                elif _is_unknown(stated.value.strip(), spawned, package):
+                    others = _other_frames(simulation, spawned, files, wirings)
+                    if others is not None and stated.value.strip() not in others:
+                        yield finding(
+                            stated,
+                            f"messages of the {sensor.type.value} sensor {sensor.name.value!r} "
+                            f"are in the frame {stated.value!r}, which is not a link of the robot",
+                        )
+
+
+def _unstated(
+    sensor: Sensor, spawned: SpawnedRobot, package: Package, context: Context
+) -> Findings:
+    """Report a sensor without a frame whose robot's links are published."""
+    texts = package.workspace.launch_texts.values()
+    if spawned.publisher is None or any(f"/{sensor.name.value}" in text for text in texts):
+        return
+    model = spawned.name or "<model>"
+    tag, frame = frame_elements(context.release)[0], _frame(sensor, spawned.robot)
+    yield finding(
+        sensor,
+        f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
+        f"the frame {model}/<link>/{sensor.name.value}, which no transform "
+        f"names; expected <{tag}>{frame}",
+        fix=_stated(sensor, f"<{tag}>{frame}</{tag}>", frame),
+    )
+
+
+def _other_frames(
+    simulation: Simulation,
+    spawned: SpawnedRobot,
+    files: UrdfFiles | None,
+    wirings: Wirings | None,
+) -> set[str] | None:
+    """Return the frames beside the robot's own links; None if they are not known.
+
+    Where the launch file does not publish this description, another one may, and so may the user's
+    other descriptions be published.
+    """
+    if spawned.publisher is not None:
+        return set()
+    nodes: tuple[Node, ...] = simulation.graph.nodes if simulation.graph is not None else ()
+    if spawned.robot.format != "urdf" or any(map(is_state_publisher, nodes)):
+        return None
+    robots = [it.robot for it in files.descriptions] if files is not None else []
+    links = {frame_of(link) for robot in robots for link in robot.links_by_name}
+    wired = wirings.all if wirings is not None else ()
+    return links.union(*((it.parent, it.child) for each in wired for it in each.transforms))
 
 
 def _frame(sensor: Sensor, robot: Robot) -> str:
@@ -109,10 +152,11 @@ def _is_bridged(simulation: Simulation, sensor: Sensor) -> bool:
     )
 
 
-def _is_unknown(frame: str, spawned: SpawnedRobot) -> bool:
-    name = frame.strip()
+def _is_unknown(frame: str, spawned: SpawnedRobot, package: Package) -> bool:
+    """Return whether a frame is no link of the robot, and nothing of the user's broadcasts it."""
     links = map(frame_of, spawned.robot.links_by_name)
-    return is_known(name) and "/" not in name and name not in links
+    known = not is_known(frame) or "/" in frame or frame in links
+    return not known and not is_broadcast(package, frame)
 
 
 _FRAME = "<gz_frame_id>lidar_link</gz_frame_id>"
@@ -173,7 +217,21 @@ GOOD = [
     _other(_MAGNETOMETER, _FRAME, "scan", "MagneticField", "Magnetometer"),
     {"@bridge": True, "urdf/rover.urdf": _ROVER.replace('"lidar_link"', '"/lidar_link"')},
 ]
+_ALONE = {'executable="robot_state_publisher"': 'executable="other"'}
+_LASER = "<gz_frame_id>laser</gz_frame_id>"
+GOOD += [
+    {
+        **_rover(_LASER),
+        "launch/slam.launch.xml": _ELSEWHERE.replace("rover/base_link/lidar", "laser"),
+    },
+    {
+        **_rover(_LASER),
+        "@launch": _ALONE,
+        "urdf/real.urdf": '<robot name="rover"><link name="laser"/></robot>',
+    },
+]
 BAD = [
+    {**_rover(f"{_LASER} <!-- ^ BRG009 -->"), "@launch": _ALONE},
     _rover("", " <!-- ^ BRG009 -->"),
     _rover("<gz_frame_id>laser</gz_frame_id> <!-- ^ BRG009 -->"),
     {**_rover("", " <!-- ^ BRG009 -->"), "@launch": _OTHER},

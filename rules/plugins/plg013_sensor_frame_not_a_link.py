@@ -14,22 +14,20 @@ Fix: write the name of the link; of a camera, that of its optical link.
 Source: gazebo_ros, `SensorFrameID`; BRG009 reports the same in Gazebo Sim.
 """
 
-import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 
 from checker.base.words import Suggestions
 from checker.launch.ros2.graph import is_known
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import frame_of
-from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.robots.urdf_files import UrdfFiles
+from checker.ros.broadcast_frames import is_broadcast
 from checker.ros.wiring.classic import classic_endpoints
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
-from checker.source.text import Located, SourceText
+from checker.source.text import Located
 
-_BROADCASTS = re.compile(r"static_transform|TransformBroadcaster")
 _OF_EVERY_ROBOT = ("world", "map", "odom")
 """Frames that Gazebo, localization or the drive publish."""
 
@@ -49,7 +47,7 @@ def check(robot: Robot, files: UrdfFiles, package: Package, context: Context) ->
     suggestions = Suggestions(sorted(map(frame_of, robot.links_by_name)))
     for sensor, frame in _stated_frames(robot):
         name = frame.value.strip()
-        if name in links or "/" in name or not is_known(name) or _is_published(package, name):
+        if name in links or "/" in name or not is_known(name) or is_broadcast(package, name):
             continue
         meant = suggestions.closest(name) or frame_of(sensor.link)
         yield finding(
@@ -68,17 +66,6 @@ def _stated_frames(robot: Robot) -> Iterator[tuple[Sensor, Located[str]]]:
         for plugin in sensor.plugins:
             if id(plugin) in publishing:
                 yield from ((sensor, frame) for frame in plugin.at("frame_name"))
-
-
-def _is_published(package: Package, name: str) -> bool:
-    """Return whether a file that broadcasts transforms names a frame."""
-    return any(_BROADCASTS.search(text) and has_word(text, name) for text in _texts(package))
-
-
-def _texts(package: Package) -> Collection[str]:
-    programs = (package.read(file.path) for file in package.index.with_suffix(".py", ".cpp"))
-    own = (source.text for source in programs if isinstance(source, SourceText))
-    return (*package.workspace.launch_texts.values(), *own)
 
 
 def _lidar(frame: str, mark: str = "", plugin: str = "ray_sensor") -> dict[str, object]:
