@@ -43,7 +43,7 @@ _SHOWN = 3
 
 @rule("WLD013", "included-model-not-available", Severity.ERROR, Concern.ROBOT)
 def check(simulations: Simulations, package: Package) -> Findings:
-    """Report each world once that Gazebo Sim does not load for want of a model."""
+    """Report each world once that Gazebo Sim does not load because it finds no model."""
     for simulation in simulations.launched:
         if simulation.graph is None or not simulation.starts_gazebo:
             continue
