@@ -60,6 +60,19 @@ def test_what_is_loaded_has_errors(tmp_path: Path) -> None:
     assert found.severity is Severity.ERROR
 
 
+_CONTROLLED = """<gazebo>
+<plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+<parameters>$(find rover_description)/config/none.yaml</parameters></plugin></gazebo>"""
+
+
+def test_files_of_plugins_that_nothing_loads_have_warnings(tmp_path: Path) -> None:
+    plugin = _CONTROLLED.replace("rover_description", NAME)
+    report = _check(tmp_path, _link(_GOOD), _link(_GOOD) + plugin, rule="R2C006")
+    (found,) = (it for it in report.findings if it.rule == "R2C006")
+    assert found.severity is Severity.WARNING
+    assert "which no launch file loads" in found.message
+
+
 @pytest.mark.parametrize(
     ("plugin", "severity"),
     [

@@ -86,12 +86,14 @@ class PluginFiles(Record, eq=False):
     """Files of parameters that the Gazebo plugins of one robot name.
 
     Attributes:
+        robot: The robot that has the plugins.
         managers: Plugins that run a controller manager.
         files: What of their files can be read.
         faults: What is wrong with them as YAML.
         unread: The reasons why parameters are not known, each the end of a sentence.
     """
 
+    robot: Robot
     managers: tuple[GazeboManager, ...]
     files: tuple[ControllerFile, ...]
     faults: tuple[YamlFault, ...]
@@ -221,7 +223,7 @@ class ControlReader:
         faults: list[YamlFault] = []
         unread: list[str] = []
         files = tuple(self._plugin_files(managers, faults, unread))
-        return PluginFiles(managers, files, tuple(faults), tuple(unread))
+        return PluginFiles(robot, managers, files, tuple(faults), tuple(unread))
 
     def _manager(self, plugin: Plugin) -> GazeboManager:
         files = tuple(self._parameters_file(text) for text in plugin.at("parameters"))
