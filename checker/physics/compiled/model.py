@@ -70,6 +70,8 @@ class Body(Record):
             body without shapes.
         stated: Whether its mass and inertia are stated, not computed from its shapes.
         visual_mass: Kilograms of it that come from meshes that collide with nothing.
+        colliding_visuals: Lines of meshes in a visual group or class that collide, beside shapes
+            that are made for it.
     """
 
     line: int
@@ -82,6 +84,7 @@ class Body(Record):
     reach: float
     stated: bool
     visual_mass: float
+    colliding_visuals: tuple[int, ...] = ()
 
 
 class Joint(Record):

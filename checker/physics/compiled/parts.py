@@ -10,6 +10,8 @@ _LINE = re.compile(r"line (\d+)")
 _NO_DENSITY = 1e-9
 """Instead of 0, with which MuJoCo refuses a mesh."""
 _NO_MOMENT = 1e-12
+_VISUAL_GROUPS = (1, 2)
+"""Groups of what is only seen: of MuJoCo's importer of URDF and robosuite, and of Menagerie."""
 
 
 def stated_line(text: str) -> int:
@@ -24,6 +26,7 @@ def model_parts(spec: Any, model: Any) -> dict[str, Any]:
 
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
+    shown = _colliding_visuals(spec, model)
     visual = _visual_masses(spec, model)
     stated = {body.id for body in spec.bodies if body.explicitinertial}
     parts = {
@@ -44,6 +47,7 @@ def model_parts(spec: Any, model: Any) -> dict[str, Any]:
                 **_body(model, data, i, lines["bodies"]),
                 "stated": i in stated,
                 "visual_mass": visual.get(i, 0.0),
+                "colliding_visuals": shown.get(i, []),
             }
             for i in range(model.nbody)
         ],
@@ -80,6 +84,33 @@ def _reach(model: Any, body: int) -> float:
     centre = model.body_ipos[body]
     far = (np.linalg.norm(model.geom_pos[it] - centre) + model.geom_rbound[it] for it in geoms)
     return float(max(far, default=0.0))
+
+
+def _colliding_visuals(spec: Any, model: Any) -> dict[int, list[int]]:
+    """Return the lines of visual meshes that collide, by their body with other shapes that do."""
+    import mujoco
+
+    visual: dict[int, list[int]] = {}
+    simple = set[int]()
+    off = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONTACT
+    for geom in spec.geoms if not off else ():
+        body = int(model.geom_bodyid[geom.id])
+        if not _meets_others(model, geom.id):
+            continue
+        is_mesh = geom.type == mujoco.mjtGeom.mjGEOM_MESH
+        if is_mesh and (geom.group in _VISUAL_GROUPS or "visual" in geom.classname.name.lower()):
+            visual.setdefault(body, []).append(stated_line(geom.info))
+        else:
+            simple.add(body)
+    return {body: lines for body, lines in visual.items() if body in simple}
+
+
+def _meets_others(model: Any, geom: int) -> bool:
+    """Return whether the bits of a shape and those of one of another body make contacts."""
+    found = (model.geom_contype[geom] & model.geom_conaffinity) | (
+        model.geom_conaffinity[geom] & model.geom_contype
+    )
+    return bool(found[model.geom_bodyid != model.geom_bodyid[geom]].any())
 
 
 def _visual_masses(spec: Any, model: Any) -> dict[int, float]:
