@@ -36,6 +36,7 @@ from checker.robots.compared_arguments import with_compared
 from checker.robots.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
 from checker.robots.fullest import fullest
 from checker.robots.leftovers import leftovers
+from checker.robots.optional_parts import is_optional_part
 from checker.robots.other_robots import Made, in_words, other_robots
 from checker.robots.shown_only import shown_only
 from checker.robots.started_loads import started_loads
@@ -120,6 +121,7 @@ class PackageDescriptions:
         self._take_fullest(expanded)
         needed = self._needed(expanded)
         descriptions, faults, fragments = [], [], []
+        unused: list[str] = []
         for candidate in self._candidates:
             outcome = expanded.get(candidate.path) or _plain(self._package, candidate.path)
             if isinstance(outcome, XmlDocument):
@@ -131,20 +133,16 @@ class PackageDescriptions:
                     descriptions.append(replace(read, values=assumed.get(candidate.path, "")))
             elif isinstance(outcome, Unread):
                 unread.append((candidate, self._unread(candidate, outcome.reason)))
-            elif outcome.kind is XacroFaultKind.ARGUMENT and self._may_be_given(candidate, outcome):
-                reason = f"{candidate.path} is not expanded: {outcome.message}"
-                unread.append((candidate, self._unread(candidate, reason)))
-            elif names := needed.get(candidate.path):
-                given = " ".join(f"{name}:=…" for name in names)
-                reason = f"{candidate.path} needs --xacro-arg {given} ({outcome.message})"
+            elif reason := self._lack(candidate, outcome, needed.get(candidate.path, ())):
                 unread.append((candidate, reason))
+            elif self._is_optional(candidate, outcome):
+                unused.append(_not_included(candidate.path))
             else:
                 faults.append(replace(outcome, loaded=candidate.loaded))
         descriptions = self._marked(descriptions)
         others = [*self._others(expanded)] if self._with_others else []
         faults += (it for it in others if isinstance(it, XacroFault))
         reasons = [reason for file, reason in unread if file.loaded or not self._for_rviz]
-        unused: list[str] = []
         if not self._for_rviz:
             holding = {description.file for description in descriptions}
             called = [*self._called(holding)]
@@ -155,7 +153,7 @@ class PackageDescriptions:
             reasons += misnamed_models(self._package)
             reasons += self._unread_for_number()
             left = unused_parts(self._package, seen)
-            unused += (f"{path} is not read: no file of a robot includes it" for path in left)
+            unused += map(_not_included, left)
             if not descriptions:
                 reasons += (
                     f"{path} is part of a robot that is not available" for path in fragments
@@ -265,6 +263,18 @@ class PackageDescriptions:
         )
         leads_out = any(end.get("link") not in links for end in ends)
         return leads_out and is_included(self._package, candidate.path)
+
+    def _lack(self, candidate: Candidate, fault: XacroFault, needed: Sequence[str]) -> str:
+        """Return which arguments a file lacks; empty if these are not why it does not expand."""
+        if fault.kind is XacroFaultKind.ARGUMENT and self._may_be_given(candidate, fault):
+            return self._unread(candidate, f"{candidate.path} is not expanded: {fault.message}")
+        given = " ".join(f"{name}:=…" for name in needed)
+        return f"{candidate.path} needs --xacro-arg {given} ({fault.message})" if given else ""
+
+    def _is_optional(self, candidate: Candidate, fault: XacroFault) -> bool:
+        if candidate.loaded or self._package.only:
+            return False
+        return is_optional_part(self._package, candidate.path, fault)
 
     def _may_be_given(self, candidate: Candidate, fault: XacroFault) -> bool:
         """Return whether what starts a file may well give the argument that it lacks."""
@@ -420,6 +430,10 @@ class PackageDescriptions:
         """Stop the expansions that still run."""
         if self._expansions is not None:
             self._expansions.stop()
+
+
+def _not_included(path: str) -> str:
+    return f"{path} is not read: no file of a robot includes it"
 
 
 def _misfit(outcome: Outcome | None, path: str) -> str:

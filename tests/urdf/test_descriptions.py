@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from checker.base.cache import NO_CACHE
 from checker.base.output import say_nothing
 from checker.engine.review import judge_package
@@ -65,3 +67,39 @@ def test_a_urdf_robot_gets_its_own_profile(describe: Describe, tmp_path: Path) -
         assert profile_of(path, quick) == "urdf"
         assert profile_of(path, quick.with_overrides(profile="sdf")) == "sdf"
         assert profile_of(path, quick.with_overrides(profile="subt")) == "subt"
+
+
+_MACROS = """<xacro:macro name="box_mass" params="mass">
+<inertial><mass value="${mass}"/></inertial></xacro:macro>"""
+_CAMERA = """<link name="eye"><xacro:box_mass mass="0.1"/></link>
+<joint name="mount" type="fixed"><parent link="base"/><child link="eye"/></joint>"""
+
+
+def with_camera(camera: str) -> dict[str, str]:
+    """Return a robot that includes macros, and leaves out a file with a camera."""
+    include = '<xacro:include filename="macros.xacro"/>'
+    return {
+        f"{NAME}/urdf/acme.urdf.xacro": robot(f'{include}<link name="base"/><!-- camera.xacro -->'),
+        f"{NAME}/urdf/macros.xacro": robot(_MACROS),
+        f"{NAME}/urdf/camera.xacro": robot(camera),
+    }
+
+
+def test_a_part_that_no_robot_includes_is_no_robot(describe: Describe) -> None:
+    files = describe(with_camera(_CAMERA)).one(UrdfFiles)
+    assert not files.faults
+    assert files.unused == ("urdf/camera.xacro is not read: no file of a robot includes it",)
+
+
+@pytest.mark.parametrize(
+    "camera",
+    [
+        _CAMERA.replace("box_mass", "bxo_mass"),
+        '<link name="camera"><xacro:box_mass mass="1"/></link>',
+        _CAMERA + '<link name="base"/>',
+    ],
+    ids=["no such macro", "no joint", "a root of its own"],
+)
+def test_a_robot_without_its_macros_is_a_fault(describe: Describe, camera: str) -> None:
+    (fault,) = describe(with_camera(camera)).one(UrdfFiles).faults
+    assert fault.file == "urdf/camera.xacro"

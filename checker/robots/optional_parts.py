@@ -1,0 +1,47 @@
+"""Files that hold a part of a robot, such as a sensor, and that no robot includes at present.
+
+Such a file calls macros of the file that the robot includes before it, so it does not expand alone.
+"""
+
+from __future__ import annotations
+
+from checker.formats.xacro.fault import XacroFault, XacroFaultKind
+from checker.formats.xacro.macro_names import macro_names
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+
+_UNKNOWN = "unknown macro name: xacro:"
+
+
+def is_optional_part(package: Package, path: str, fault: XacroFault) -> bool:
+    """Return whether a file that does not expand lacks a macro of another one, and no more.
+
+    All its links hang on a link that it does not have: a robot has a link that nothing holds.
+
+    Args:
+        package: The package of the file.
+        path: The file, which no file includes and no launch file loads.
+        fault: Why it does not expand.
+    """
+    macro = fault.message.removeprefix(_UNKNOWN)
+    if fault.kind is not XacroFaultKind.EXPANSION or macro == fault.message:
+        return False
+    return _hangs_outside(package, path) and macro in _macros_beside(package, path)
+
+
+def _hangs_outside(package: Package, path: str) -> bool:
+    document = package.xml(path)
+    if not isinstance(document, XmlDocument):
+        return False
+    links = {link.get("name") for link in document.root.all("link")}
+    joints = document.root.all("joint")
+    children = {end.get("link") for joint in joints for end in joint.all("child")}
+    parents = {end.get("link") for joint in joints for end in joint.all("parent")}
+    return bool(links) and links <= children and not parents <= links
+
+
+def _macros_beside(package: Package, path: str) -> frozenset[str]:
+    files = (it.path for it in package.index.with_suffix(".xacro", ".urdf") if it.path != path)
+    sources = (package.read(file) for file in files)
+    return macro_names(source.text for source in sources if isinstance(source, SourceText))
