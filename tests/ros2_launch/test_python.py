@@ -433,6 +433,22 @@ return LaunchDescription([
     assert not graph.unread
 
 
+def test_a_description_that_is_assigned_to_that_of_moveit(read: Read) -> None:
+    graph = read(
+        f"""{_MOVEIT}
+config.robot_description = {{'robot_description': Command(['xacro ', 'a.xacro'])}}
+return LaunchDescription([
+    Node(package='p', executable='e', parameters=[config.robot_description, 'arm.yaml']),
+    Node(package='p', executable='e', parameters=[config.to_dict()])])"""
+    )
+    for node in graph.nodes:
+        parameter = node.parameter("robot_description")
+        assert parameter is not None
+        assert "a.xacro" in str(parameter.value)
+    assert not graph.nodes[0].unread
+    assert not graph.unread
+
+
 def test_imports_of_all_names(read: Read) -> None:
     text = f"""
 from launch.substitutions import *

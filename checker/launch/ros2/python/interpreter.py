@@ -203,6 +203,10 @@ class Interpreter:
                     owner[key] = self.guarded([value])[0]
                 elif not isinstance(owner, Symbol):
                     self.unread(target, "the assignment is not evaluated")
+            case ast.Attribute(value=owner_node, attr=name):
+                owner = chosen_value(evaluate(self, owner_node, scope))
+                if not methods.set_attribute(owner, name, self.guarded([value])[0]):
+                    self.unread(target, "the assignment is not evaluated")
             case _:
                 self.unread(target, "the assignment is not evaluated")
 

@@ -40,7 +40,9 @@ def attribute(run: Interpreter, owner: Value, name: str, node: ast.AST) -> Value
         return _of_path(owner, name, run, node)
     if isinstance(owner, Made):
         if owner.name == "MoveItConfigs" and name not in ("to_dict", "to_moveit_configs"):
-            return _of_moveit(run, owner, name)
+            # Until they are built, the parameters are methods.
+            built = "built" in owner.values
+            return moveit.parameters(run, owner, name) if built else Method(owner, name)
         if name in owner.values and name != "package":
             return owner.values[name]
         if owner.name == CONTEXT and name in ("launch_configurations", "environment"):
@@ -48,17 +50,12 @@ def attribute(run: Interpreter, owner: Value, name: str, node: ast.AST) -> Value
     return Method(owner, name)
 
 
-def _of_moveit(run: Interpreter, owner: Made, name: str) -> Value:
-    """Return parameters, which are methods as well until they are built.
-
-    They are always the same dictionary, since launch files put other values into it.
-    """
-    if "built" not in owner.values:
-        return Method(owner, name)
-    key = f"built {name}"
-    if key not in owner.values:
-        owner.values[key] = moveit.parameters(run, owner, name)
-    return owner.values[key]
+def set_attribute(owner: Value, name: str, value: Value) -> bool:
+    """Assign to `owner.name`; return whether that is evaluated."""
+    if not isinstance(owner, Made) or owner.name != "MoveItConfigs":
+        return False
+    moveit.assign(owner, name, value)
+    return True
 
 
 def _of_path(path: FilePath, name: str, run: Interpreter, node: ast.AST) -> Value:

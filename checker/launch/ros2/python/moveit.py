@@ -58,15 +58,38 @@ def called(
     if name == "to_moveit_configs":
         return Made(configs.name, {**configs.values, "built": True}, configs.span)
     if name == "to_dict":
-        return {**parameters(run, configs, "robot_description"), **_rest(configs)}
+        described = chosen_value(parameters(run, configs, "robot_description"))
+        own = described if isinstance(described, dict) else {"robot_description": described}
+        return {**own, **_rest(configs)}
     if name in (*_DESCRIPTIONS, *_OTHERS):
         given = dict(zip(("file_path", "mappings"), positional, strict=False)) | named
         configs.values[name] = given
     return configs
 
 
-def parameters(run: Interpreter, configs: Made, name: str) -> dict[str, Value]:
-    """Return the value of an attribute of the built configurations, as parameters of a node."""
+def parameters(run: Interpreter, configs: Made, name: str) -> Value:
+    """Return the value of an attribute of the built configurations, as parameters of a node.
+
+    It is always the same dictionary, since launch files put other values into it.
+    """
+    key = _built(name)
+    if key not in configs.values:
+        configs.values[key] = _made(run, configs, name)
+        run.by_argument = True
+    return configs.values[key]
+
+
+def assign(configs: Made, name: str, value: Value) -> None:
+    """Replace the value of an attribute of the built configurations."""
+    configs.values[_built(name)] = value
+
+
+def _built(name: str) -> str:
+    """Return the key of an attribute; its name alone is that of a method of the builder."""
+    return f"built {name}"
+
+
+def _made(run: Interpreter, configs: Made, name: str) -> dict[str, Value]:
     if name not in _DESCRIPTIONS:
         return _rest(configs)
     path = _path(run, configs, name)
