@@ -25,6 +25,7 @@ from checker.engine.report_cache import memory_key, recall_report, remember
 from checker.finding import Safety
 from checker.package.inputs import Opened, open_input, with_package_path
 from checker.package.package import Package
+from checker.package.vendored import vendored_in
 from checker.report.report import (
     NotOpened,
     PackageReport,
@@ -142,7 +143,13 @@ def tasks_of(
         for task in _tasks_at(Task(path, None, None, wishes, say, mesh_server)):
             unit = (task.package.root, task.package.only) if task.package else (task.path, "")
             tasks.setdefault(unit, task)
-    return sorted(tasks.values(), key=lambda task: (task.display_path, bool(task.result)))
+    return sorted(tasks.values(), key=_order)
+
+
+def _order(task: Task) -> tuple[bool, str, bool]:
+    """Return a sort key: packages of copied repositories are last."""
+    copied = task.package is not None and bool(vendored_in(task.package))
+    return copied, task.display_path, bool(task.result)
 
 
 def _tasks_at(task: Task) -> Iterator[Task]:
@@ -322,5 +329,5 @@ def join_reports(done: Iterable[Checked]) -> Report:
             not_opened[result] = None
         else:
             packages.setdefault((Path(result.path).resolve(), result.name), result)
-    ordered = sorted(packages.values(), key=lambda package: (package.path, package.name))
+    ordered = sorted(packages.values(), key=lambda it: (bool(it.vendored), it.path, it.name))
     return Report(tuple(ordered), versions(), tuple(not_opened))

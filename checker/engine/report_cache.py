@@ -54,7 +54,7 @@ _LIBRARIES = (
     *("pycollada", "pyelftools", "pyyaml", "scipy", "subt-check", "tree-sitter"),
     *("tree-sitter-ruby", "xacro", "yourdfpy"),
 )
-_AROUND = re.compile(r"/(?:readme(?:\.\w{1,8})?|\.gitignore)\Z")
+_AROUND = re.compile(r"/(?:(?:readme|licen[cs]e|copying)(?:\.\w{1,8})?|\.gitignore)\Z")
 ENTRIES_LIMIT = 100_000
 """Files next to a package; with more of them, reading all takes longer than checking."""
 ENTRIES_AROUND_A_FILE = 5_000

@@ -26,7 +26,7 @@ from checker.engine.grouping import (
 )
 from checker.engine.judge import GradedFinding, Judge
 from checker.engine.options import options_of
-from checker.engine.unloaded import less_of_unloaded, unloaded_in
+from checker.engine.unloaded import OF_COPIES, less_of_unloaded, unloaded_in
 from checker.finding import (
     Severity,
     fingerprint,
@@ -66,6 +66,7 @@ def run_rules(
     unloaded: Collection[str] = (),
     *,
     unstarted: str = "",
+    copied: str = "",
     allowance: Allowance | None = None,
 ) -> Outcome:
     """Run the rules of profile and settings; one that crashes stops no other.
@@ -77,6 +78,7 @@ def run_rules(
         matcher: The matcher of findings that do not count.
         unloaded: Files that nothing loads: what is found in them is information.
         unstarted: That nothing starts the whole, as a clause: what is found is less severe.
+        copied: That it was copied, as a clause: what some rules find is less severe.
         allowance: What each rule may use; the usual when None.
     """
     allowance = allowance or Allowance()
@@ -87,7 +89,8 @@ def run_rules(
         if not judge.is_selected(rule):
             not_checked += judge.switched_off(rule)
             continue
-        result = _run_isolated(rule, parts, judge, allowance, unstarted)
+        clause = unstarted or (copied if rule.id in OF_COPIES else "")
+        result = _run_isolated(rule, parts, judge, allowance, clause)
         severity = judge.severity(rule)
         if isinstance(result, NotChecked):
             not_checked.append(replace(result, severity=severity, concern=rule.concern))
@@ -205,7 +208,7 @@ def join_outcomes(*outcomes: Outcome) -> Outcome:
 
 
 def _run_isolated(
-    rule: Rule, parts: Parts, judge: Judge, allowance: Allowance, unstarted: str
+    rule: Rule, parts: Parts, judge: Judge, allowance: Allowance, clause: str
 ) -> list[Finding | Unchecked] | NotChecked:
     """Run one rule; what goes wrong inside it is the checker's fault and states it."""
     try:
@@ -216,7 +219,7 @@ def _run_isolated(
         options = options_of(rule, judge.settings)
         with allowance.piece():
             said = [
-                (unloaded_in(each, rule.id) or unstarted, [*rule.check(**each, **options)])
+                (unloaded_in(each, rule.id) or clause, [*rule.check(**each, **options)])
                 for each in arguments
             ]
             return [*less_of_unloaded(said, rule.severity)]

@@ -20,6 +20,10 @@ _OF_SIMULATION = (
 """Rules, and groups of rules, about what a simulator alone reads, and what it makes of it."""
 
 
+OF_COPIES = ("PKG015", "INE006", "INE007")
+"""Rules whose findings in a copied repository weigh less: its users would not mend them."""
+
+
 def unloaded_in(arguments: Mapping[str, Any], rule: str) -> str:
     """Return the clause that nothing reads what a rule looks at; else empty.
 

@@ -231,6 +231,7 @@ class PackageReport(Record):
             and the evidence; empty if the user or a default chose it.
         launched: The graphs of its launch files of ROS 2.
         neighbours: Names of the packages in whose files findings are, by the paths of these files.
+        vendored: Folder of the copied repository that it is in; empty for the user's own packages.
     """
 
     name: str
@@ -255,6 +256,7 @@ class PackageReport(Record):
     target_reason: str = ""
     launched: tuple[Launched, ...] = ()
     neighbours: Mapping[str, str] = field(default_factory=dict)
+    vendored: str = ""
 
     @property
     def verdict(self) -> VerdictKind:
@@ -311,7 +313,7 @@ class NotOpened(Record):
 
 
 class Report(Record):
-    """The reports of all packages of one run, sorted by name."""
+    """The reports of all packages of one run, sorted by name, copied repositories last."""
 
     packages: tuple[PackageReport, ...]
     versions: Mapping[str, str]

@@ -14,6 +14,9 @@ that are so in simple shapes have one; simple shapes of up to 2 mm are placehold
 count. A whole link that is as dense as solid steel is suspicious if the rest of the robot is
 hollow, as robots are.
 
+In a package of a released repository, copied beside the user's own packages, that none of these
+uses, it is one step less severe.
+
 Fix: correct the mass in kg, or the size of the shapes in m.
 Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 850, lead 11 340.
 """

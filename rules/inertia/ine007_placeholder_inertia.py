@@ -5,6 +5,8 @@ ton. If links of different mass or size share one tensor, it is copied and right
 them; if most of them are alike, for these, and only the others are reported. Of a model for Gazebo
 without a sensor, a plugin or moving joints, such as a box in a world, it is an info; so is a unit
 tensor that is within a factor of 3 of what the shapes of the link have at its mass.
+In a package of a released repository, copied beside the user's own packages, that none of these
+uses, it is one step less severe.
 
 Fix: compute the moments of each link, with CAD or with the formula of the most similar solid.
 Source: Model Migration Guide; review of exported models.

@@ -4,7 +4,9 @@ URIs, CMake lists and shell commands break at spaces. Systems encode letters out
 differently. Of two names that differ only in case, Windows and macOS keep one. No accepted package
 that we checked has this fault. GIF files, films and documents are not judged: no simulator reads
 them. In a folder such as `third_party/asio`, with a licence or a manifest of its own, this is an
-info. REF002, PKG004 or PKG009 report a reference that differs from its file only in case.
+info; so it is in a package of a released repository, copied beside the user's own packages, that
+none of these uses. REF002, PKG004 or PKG009 report a reference that differs from its file only in
+case.
 
 Fix: use only ASCII letters, digits, `_`, `-` and `.` in the name, and correct the references to it.
 Source: common practice with CMake lists, URIs and archives made on Windows and macOS.
