@@ -130,8 +130,8 @@ def _with_other_joints(configured: Sequence[Controller], stated: YamlNode) -> It
         yield finding(
             listed,
             f"controller {first.name!r} refuses each trajectory: MoveIt sends joints "
-            f"{and_list(sorted(meant))}, and it has {and_list([it.value for it in own])}; write the "
-            "same joints in both files",
+            f"{and_list(sorted(meant))}, and it has {and_list([it.value for it in own])}; write "
+            "the same joints in both files",
             key=first.name,
             related=[(own[0], "its joints")],
         )
