@@ -44,6 +44,7 @@ class Candidate(Record):
         given: Arguments of each launch file that loads it, where all of them are known.
         spawned: Whether the launch file whose arguments these are spawns a robot.
         shown: As `given`, of launch files that spawn nothing beside those that spawn.
+        misplaced: Whether a launch file names it by the path of another folder; others load robots.
     """
 
     path: str
@@ -56,6 +57,7 @@ class Candidate(Record):
     given: tuple[Mapping[str, str], ...] = ()
     spawned: bool = False
     shown: tuple[Mapping[str, str], ...] = ()
+    misplaced: bool = False
 
     def assumed_values(self, number: int, given: Collection[str]) -> dict[str, str]:
         """Return the values of arguments that are not given.
@@ -77,6 +79,7 @@ class StartedLoad(Record):
     Attributes:
         counts: Whether the launch file can run: one of ROS 1 in a package of ROS 2 cannot.
         spawned: Whether the launch file spawns a robot in a simulator.
+        misplaced: Whether the launch file names it by the path of another folder.
     """
 
     load: Load
@@ -85,6 +88,7 @@ class StartedLoad(Record):
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     offered: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     spawned: bool = False
+    misplaced: bool = False
 
 
 def may_hold_description(package: Package) -> bool:
@@ -115,9 +119,12 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
             candidate = Candidate(
                 path, load.args, counts, by_xacro, missing, *allowed, given, started.spawned
             )
+            candidate = replace(candidate, misplaced=started.misplaced)
             before = chosen.get(path, candidate)
+            misplaced = before.misplaced and started.misplaced
             if before.spawned and not started.spawned:
-                chosen[path] = replace(before, shown=before.shown + given)
+                shown = before.shown + given
+                chosen[path] = replace(before, shown=shown, misplaced=misplaced)
                 continue
             every = before.given if given and load.args in before.given else before.given + given
             # Of several ways to start it, one that is known counts before one that is not.
@@ -125,7 +132,8 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
             runs = candidate.loaded and not before.loaded
             taken = candidate if known or runs else before
             loaded = before.loaded or candidate.loaded
-            chosen[path] = replace(taken, loaded=loaded, given=every)
+            chosen[path] = replace(taken, loaded=loaded, given=every, misplaced=misplaced)
+    chosen = _with_rightly_named(chosen)
     if not chosen or package.kind is PackageKind.URDF_DESCRIPTION:
         others = [path for path in _outermost(package) if path not in chosen]
         own = [path for path in others if not _is_of_package_within(package, path)]
@@ -134,6 +142,13 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
     if not chosen and package.kind is PackageKind.URDF_DESCRIPTION:
         chosen = {path: Candidate(path) for path in _made_of(package)}
     return [*chosen.values()]
+
+
+def _with_rightly_named(chosen: dict[str, Candidate]) -> dict[str, Candidate]:
+    """Return candidates; misplaced ones are not loaded beside one that is where it is named."""
+    if not any(it.loaded and not it.misplaced for it in chosen.values()):
+        return {path: replace(it, misplaced=False) for path, it in chosen.items()}
+    return {path: replace(it, loaded=it.loaded and not it.misplaced) for path, it in chosen.items()}
 
 
 def most_likely(

@@ -195,6 +195,7 @@ class PackageDescriptions:
                 else it
                 for it in descriptions
             ]
+        misplaced = {candidate.path for candidate in self._candidates if candidate.misplaced}
         naming = Naming(
             self._package.workspace.launch_texts,
             self._package.naming_launch_texts,
@@ -202,7 +203,8 @@ class PackageDescriptions:
         )
         return [
             it
-            if it.file in loaded or may_be_loaded(naming, it.file, loaded)
+            if it.file in loaded
+            or (it.file not in misplaced and may_be_loaded(naming, it.file, loaded))
             else replace(it, unloaded=f"only in {it.file}, which no launch file loads")
             for it in descriptions
         ]

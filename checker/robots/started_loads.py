@@ -61,7 +61,7 @@ def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[Start
         missing = dict.fromkeys(described.unknown, f"{folder}{described.node.file}")
         allowed = described.choices, described.offered
         spawned = not _spawns_nothing(graph)
-        yield StartedLoad(described.load, True, missing, *allowed, spawned)
+        yield StartedLoad(described.load, True, missing, *allowed, spawned, described.misplaced)
 
 
 def _of_other_choices(

@@ -190,6 +190,17 @@ def test_what_nothing_loads_has_warnings(tmp_path: Path) -> None:
     assert found.message.endswith("(only in urdf/old.urdf.xacro, which no launch file loads)")
 
 
+def test_what_a_launch_file_names_in_another_folder_has_warnings(tmp_path: Path) -> None:
+    launch, folder = tmp_path / NAME / "launch", tmp_path / NAME / "urdf/kept"
+    launch.mkdir(parents=True)
+    folder.mkdir(parents=True)
+    (launch / "old.launch.py").write_text(python(_LAUNCH.replace("new.urdf", "old.urdf")))
+    (folder / "old.urdf.xacro").write_text(f"{_HEAD}{_link(_FAULTY)}</robot>")
+    (found,) = _faults(_check(tmp_path, _link(_GOOD)))
+    assert found.severity is Severity.WARNING
+    assert found.message.endswith("(only in urdf/kept/old.urdf.xacro, which no launch file loads)")
+
+
 def test_what_another_value_makes_has_warnings(tmp_path: Path) -> None:
     (found,) = _faults(_check(tmp_path, _link(_GOOD) + _CHOICE.replace("@", _FAULTY)))
     assert found.severity is Severity.WARNING

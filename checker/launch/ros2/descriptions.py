@@ -37,6 +37,7 @@ class LoadedDescription(Record, eq=False):
         parameter: The parameter that contains it; None if it is among the arguments.
         span: The place where the file is named.
         replacing: Whether the launch file replaces parts of the text of the file.
+        misplaced: Whether the file is not at the path that the launch file names.
     """
 
     load: Load
@@ -47,6 +48,7 @@ class LoadedDescription(Record, eq=False):
     parameter: Parameter | None
     span: Span
     replacing: bool = False
+    misplaced: bool = False
 
 
 def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[LoadedDescription]:
@@ -60,7 +62,7 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
     defaults = {a.name: a for a in graph.arguments if a.choices and a.default is not None}
     for node in sorted(graph.nodes_and_spawns, key=lambda node: _RANKS[node.starts]):
         for text, parameter, span in _texts(node):
-            for load, given in _described(package, text):
+            for load, given, misplaced in _described(package, text):
                 choices = {
                     name: allowed[variable[1]]
                     for name, value in given.items()
@@ -73,7 +75,15 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
                 }
                 replacing = text.endswith(f"{REPLACING})")
                 yield LoadedDescription(
-                    load, tuple(given), choices, offered, node, parameter, span, replacing
+                    load,
+                    tuple(given),
+                    choices,
+                    offered,
+                    node,
+                    parameter,
+                    span,
+                    replacing,
+                    misplaced,
                 )
 
 
@@ -89,32 +99,35 @@ def _texts(node: Node) -> Iterator[tuple[str, Parameter | None, Span]]:
 _RANKS = {True: 0, None: 1, False: 2}
 
 
-def _described(package: Package, text: str) -> Iterator[tuple[Load, dict[str, str]]]:
-    """Yield the file that a text comes from, and the arguments whose values are not known."""
+def _described(package: Package, text: str) -> Iterator[tuple[Load, dict[str, str], bool]]:
+    """Yield the file of a text, the arguments that are not known, and whether it is elsewhere."""
     if text.startswith(_COMMAND) and text.endswith(")"):
         command = text.removeprefix(_COMMAND)[:-1]
         for load in read_command(command):
-            path = _as_listed(package, load.path)
+            path, misplaced = _as_listed(package, load.path)
             if path is not None:
-                yield replace(load, path=path), _unknown(command)
+                yield replace(load, path=path), _unknown(command), misplaced
     elif text.startswith(CONTENT) and text.endswith(")"):
-        path = _as_listed(package, text.removeprefix(CONTENT)[:-1].removesuffix(REPLACING))
+        named = text.removeprefix(CONTENT)[:-1].removesuffix(REPLACING)
+        path, misplaced = _as_listed(package, named)
         if path is not None and path.lower().endswith(_SUFFIXES):
-            yield Load(path, {}, by_xacro=False), {}
+            yield Load(path, {}, by_xacro=False), {}, misplaced
 
 
-def _as_listed(package: Package, path: str) -> str | None:
-    """Return how xacro sees a file that is installed at a path; None if it is not available.
+def _as_listed(package: Package, path: str) -> tuple[str | None, bool]:
+    """Return how xacro sees a file that is installed at a path, and whether it is elsewhere.
 
     One that is not installed there is the only file of that name in its package: LCH001 says so.
+    The path is None if it is not available.
     """
     target = share_path(path)
     if target is None:
-        return None
-    local = local_file(package, path)
+        return None, False
+    local, misplaced = local_file(package, path), False
     if local is None and is_missing(package, target):
         local = local_file(package, f"{ROOT}/{target.package}/{lies_elsewhere(package, target)}")
-    return None if local is None else path_of(package, local)
+        misplaced = True
+    return None if local is None else path_of(package, local), misplaced
 
 
 def _unknown(command: str) -> dict[str, str]:
