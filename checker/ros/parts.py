@@ -20,6 +20,7 @@ from checker.package.package import Package
 from checker.robots.parts import ControlledRobot, PlainRobots
 from checker.robots.urdf_files import UrdfFiles
 from checker.ros.control.controllers import ControlSystem
+from checker.ros.control.launched_beside import LaunchedBeside
 from checker.ros.control.loaded_parameters import Parameters, controllers_for, loaded_parameters
 from checker.ros.ros2_control.launched import LaunchedControl, launched_files
 from checker.ros.ros2_control.launched import launched_controls as read_launched_controls
@@ -159,7 +160,11 @@ def controlled_robots(
     # Files of parameters are read for those robots alone that need them.
     loaded = ask.one(Parameters) if others else NotAvailable("no robot has a transmission")
     if isinstance(loaded, Parameters):
-        found |= {id(it): (it, controllers_for(it, loaded.reached)) for it in others}
+        beside = LaunchedBeside(package)
+        found |= {
+            id(it): (it, controllers_for(it, loaded.reached) or beside.controllers(it))
+            for it in others
+        }
     robots = tuple(
         ControlledRobot(robot, without_idle(controllers, started))
         for robot, controllers in found.values()
