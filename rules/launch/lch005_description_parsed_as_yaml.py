@@ -24,7 +24,7 @@ _DECLARATION = '<?xml version="1.0" ?>\n'
 """Start of xacro's output: a text of one line could be a mapping, a longer one cannot."""
 
 
-@rule("LCH005", "description-parsed-as-yaml", Severity.WARNING, Concern.INTERFACE)
+@rule("LCH005", "description-parsed-as-yaml", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package, description: UrdfDescription) -> Findings:
     """Report parameters without a type that have text which is not valid YAML."""
     text = _DECLARATION + description.document.source.text
@@ -34,8 +34,9 @@ def check(launch: Ros2Launch, package: Package, description: UrdfDescription) ->
         if local_path(package, loaded.load.path) == description.document.source.file:
             yield finding(
                 loaded,
-                "the robot description is parsed as YAML, but is not valid YAML: "
-                "write ParameterValue(…, value_type=str) around it",
+                "ros2 launch stops: it parses the robot description as YAML, which it is not, "
+                "mostly for a colon and a blank in a comment; write "
+                "ParameterValue(…, value_type=str) around it",
                 key="without type",
             )
 
