@@ -35,7 +35,8 @@ def corrected_lines(fix: Fix) -> Iterator[Corrected]:
         if after is None:
             yield from (Corrected(file, line, it.original, it.replacement, False) for it in edits)
         else:
-            yield _without_kept(Corrected(file, line, before.strip(), after.strip(), True))
+            written = after.replace("\r\n", "\n").strip()
+            yield _without_kept(Corrected(file, line, before.strip(), written, True))
 
 
 def _without_kept(line: Corrected) -> Corrected:

@@ -17,8 +17,9 @@ the workspace needs where it runs is installed with it, and is an info. The same
 package.xml misspells the package of a team or plugin: it is reported if a package of a similar name
 is available, and the misspelt one is not. A name that no ROS distribution has is to be corrected,
 not declared, if it is near to one of them; so is one whose messages a node imports, if it exists
-nowhere in a repository of several packages, and nothing there brings it. What a description names
-that no launch file loads, beside one that is loaded, does not count. If a package is not available,
+nowhere in a repository of several packages, and nothing there brings it. LCH015 reports what a
+launch file starts of a package that the distribution no longer has. What a description names that
+no launch file loads, beside one that is loaded, does not count. If a package is not available,
 and this package has every file that it uses of it, or its name in another order, the name is taken
 as the former name of this package: an info, and a warning where roslaunch stops at its `$(find …)`.
 
@@ -42,6 +43,7 @@ from checker.launch.ros2.graph import Ros2Launch
 from checker.launch.ros2.package_launch import built_by_ament
 from checker.launch.ros2.used_packages import every_use
 from checker.package.dependencies import Use, duplicate_files, former_names
+from checker.package.distribution_sign import former_distribution
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, Dependency, PackageManifest, Paperwork
@@ -72,6 +74,7 @@ from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to, insert_behind
 
 _IMPORT = "from "
+_STARTED = ("node ", "file launch/")
 _RELEASE = re.compile(r"\Aros[12]\Z")
 _ROS_CORE = (
     r"(?:actionlib|diagnostic|geometry|nav|sensor|shape|std|stereo|trajectory|visualization)_msgs"
@@ -161,7 +164,7 @@ def check(
                 yield _at_hand(package, manifest, use, bringing)
         elif not manifest.depends_on(name) and not _brought(manifest, name):
             others.setdefault(name, use)
-    yield from _no_such_package(others, context.distro)
+    yield from _no_such_package(others, "" if former_distribution(package) else context.distro)
     yield from _not_imported(package, others)
     yield from _distribution(package, manifest, others, bringing, context.release)
     yield from _lender(package, manifest)
@@ -313,9 +316,15 @@ def _brings(bringing: Mapping[str, str], name: str) -> str:
 
 
 def _no_such_package(uses: dict[str, Use], distro: str) -> Iterator[Finding]:
-    """Report, and take out, misspelt names of packages: rosdep would not find what is declared."""
-    names = ReleasedNames(distro)
+    """Report, and take out, misspelt names of packages: rosdep would not find what is declared.
+
+    Nor would it find what launch files start that the distribution no longer has: LCH015 says so.
+    """
+    names, removed = ReleasedNames(distro), table("removed_packages")["names"]
     for name, use in [*uses.items()] if distro else ():
+        if use.how.startswith(_STARTED) and distro in removed.get(name, {}).get("missing_in", ()):
+            del uses[name]
+            continue
         known = distributions_with(name) or is_of_system(name)
         meant = None if known else names.correction_of(name)
         if meant is not None:
@@ -483,6 +492,11 @@ GOOD = [
     {"@ros2": _TELEOP, "package.xml": _arm("desktop")},
     {"@ros2": _MAPPING, "package.xml": _arm("rtabmap_ros")},
     {"@ros2": _COMMANDED, "package.xml": _arm("slam_toolbox")},
+    {
+        "@ros2": "        Node(package='gazebo_ros', executable='spawn_entity.py'),",
+        "package.xml": _arm("ros_gz"),
+        "@profile": "ros2",
+    },
     {
         "@ros2": _BRIDGE,
         "package.xml": _arm("ros_gz", "rclcpp"),

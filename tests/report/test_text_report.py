@@ -123,6 +123,10 @@ def test_a_line_that_stays_is_not_to_be_written() -> None:
     added = Edit(replace(place, column=7, end_column=7), "\n  <b/>\n  <c/>", "")
     fixed = replace(FAULT, places=(place,), fix=Fix(Safety.SAFE, (added,)))
     assert "    fix: write `<b/> <c/>`" in lines(fixed)
+    of_windows = replace(added, replacement=added.replacement.replace("\n", "\r\n"))
+    assert "    fix: write `<b/> <c/>`" in lines(
+        replace(fixed, fix=Fix(Safety.SAFE, (of_windows,)))
+    )
     closed = replace(added.place, snippet="  </a>")
     behind = replace(fixed, fix=Fix(Safety.SAFE, (replace(added, place=closed),)))
     assert "    fix: write `<b/> <c/>`" in lines(behind)
