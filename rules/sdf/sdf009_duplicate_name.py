@@ -5,10 +5,10 @@ of one kind share a name, or in which two children of a world do. Links, joints,
 models of a model have one set of names: in files before SDF 1.7 libsdformat renames the second
 (joint `arm` next to a link `arm` becomes `arm_joint`), so that it cannot be found by its written
 name; from 1.7 on it refuses the file. Gazebo Classic renames nothing: there it is an info. That
-other siblings share a name is against the specification since SDF 1.7, and works. Names of the form
-`__x__`, the name `world`, and names with `::` have a special meaning for the parser; before SDF 1.8
-`::` was part of a valid name, and is reported in submissions only. Plugins may share a name, and
-names inside a plugin are not compared.
+other siblings share a name, such as a visual and a collision, is against the specification since
+SDF 1.7, and works: an info. Names of the form `__x__`, the name `world`, and names with `::` have a
+special meaning for the parser; before SDF 1.8 `::` was part of a valid name, and is reported in
+submissions only. Plugins may share a name, and names inside a plugin are not compared.
 
 No accepted package that we checked has this fault.
 
@@ -84,13 +84,15 @@ def _twins(
         twin = first if first is not child else other
         whose = f"another <{twin.tag}>" if twin.tag == child.tag else f"a <{twin.tag}>"
         message = f"<{child.tag}> {name.value!r} has the same name as {whose}"
+        # A visual and a collision of one name, say, are loaded, and both are found.
+        level = weaker if {child.tag, twin.tag} <= _FRAMES else Severity.INFO
         changed = child if child in new_names else twin
         if changed in new_names:
             message += f": the simulator calls the {changed.tag} {new_names[changed]!r}"
         yield finding(
             name,
             message,
-            severity=None if _is_refused(parent, child, twin, version) else weaker,
+            severity=None if _is_refused(parent, child, twin, version) else level,
             related=[(_name(twin) or twin, "the first with this name")],
             fix=_numbered(parent, name) if child.tag == twin.tag == "visual" else None,
         )
