@@ -9,31 +9,20 @@ Source: URDF specification, joint: a continuous joint has no limits; what libsdf
 such a joint.
 """
 
-import math
-
 from checker.formats.urdf.description import UrdfDescription
-from checker.model.values import parse_number
+from checker.formats.urdf.ignored_limits import ignored_limits
 from checker.rule import Concern, Findings, Severity, finding, rule
-
-_TURN = 2 * math.pi
-_NEARLY = 0.999
-"""Limits are written with few digits."""
 
 
 @rule("URD029", "limits-of-continuous-joint", Severity.WARNING, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
     """Report limits of less than a turn."""
     for joint in description.robot.joints:
-        limit = joint.element.child("limit")
-        if joint.type.value != "continuous" or limit is None:
-            continue
-        ends = [parse_number((limit.get(name) or "0").strip()) for name in ("lower", "upper")]
-        if None in ends:
-            continue
-        lower, upper = (end or 0.0 for end in ends)
-        if 0.0 < upper - lower < _NEARLY * _TURN:
+        limits = ignored_limits(joint)
+        if limits is not None:
+            lower, upper = limits
             yield finding(
-                limit,
+                joint.element.child("limit") or joint,
                 f"continuous joint {joint.name.value!r} ignores its limits {lower:g} and {upper:g} "
                 'rad: write type="revolute", or remove the limits',
                 key="limits of a continuous joint",
