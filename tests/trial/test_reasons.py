@@ -53,6 +53,23 @@ def test_a_body_whose_velocity_a_plugin_sets() -> None:
 
 
 @pytest.mark.parametrize(
+    ("topic", "drives"),
+    [
+        ("", False),
+        ("<commandTopic>/cmd_vel</commandTopic>", False),
+        ("<commandTopic>a</commandTopic>", True),
+    ],
+)
+def test_wheels_of_a_body_whose_velocity_a_plugin_sets(topic: str, drives: bool) -> None:
+    other = BODY.replace("part", "other").replace('<link name="base"/>', "")
+    wheels = "<leftJoint>part</leftJoint><rightJoint>other</rightJoint>"
+    drive = plugin("libgazebo_ros_diff_drive.so", wheels)
+    plan = plan_of(urdf(BODY + other + drive + plugin("libgazebo_ros_planar_move.so", topic)))
+    assert bool(plan.speeds) is drives
+    assert ("planar_move sets the body's velocity" in plan.not_driven) is not drives
+
+
+@pytest.mark.parametrize(
     ("kind", "reason"),
     [
         (

@@ -42,11 +42,16 @@ def reason_not_tried(robot: Robot, locomotion: Locomotion) -> str:
     return locomotion.doubt or next(_drives(robot), "")
 
 
+def moved_as_a_whole(mover: str) -> str:
+    """Return why a robot is not driven whose body a plugin moves."""
+    return f"{mover} sets the body's velocity: there is nothing to drive"
+
+
 def _drives(robot: Robot) -> Iterator[str]:
     """Yield what moves the robot as a whole, with the reason why it is not driven."""
     for plugin in robot.all_plugins:
         if mover := body_velocity(plugin):
-            yield f"{mover} sets the body's velocity: there is nothing to drive"
+            yield moved_as_a_whole(mover)
         elif _PUSHES in (library_stem(plugin.filename.value), plugin.class_name):
             yield f"{_PUSHES} pushes the body: there is nothing to drive"
     for controller in moving_controllers(robot):

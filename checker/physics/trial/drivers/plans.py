@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Joint
 from checker.model.geometry.transform import Transform, Vector
+from checker.model.locomotion.body_drive import body_drives
 from checker.model.locomotion.classic import enforces_limits, wheel_torques
 from checker.model.locomotion.locomotion import (
     DriveKind,
@@ -34,7 +35,11 @@ from checker.physics.trial.course import (
     linear_command,
 )
 from checker.physics.trial.drivers.arms import plan_arm
-from checker.physics.trial.drivers.not_driven import reason_not_driven, reason_not_tried
+from checker.physics.trial.drivers.not_driven import (
+    moved_as_a_whole,
+    reason_not_driven,
+    reason_not_tried,
+)
 from checker.physics.trial.drivers.rollers import NOT_ROLLING, can_roll, plan_rollers
 from checker.physics.trial.drivers.wheels import (
     finite_limit,
@@ -238,7 +243,11 @@ def plan_of(robot: Robot) -> Plan:
     Joints that plugins move otherwise do not move, and of URDF those that have a motor and turn no
     wheel: some controller holds them.
     """
-    plan = _of_kind(robot, robot.locomotion)
+    if body := next(body_drives(robot), None):
+        standing = plan_hold(robot, DriveKind.NONE)
+        plan = replace(standing, not_driven=moved_as_a_whole(body.name))
+    else:
+        plan = _of_kind(robot, robot.locomotion)
     turned = {*plan.speeds, *plan.places}
     held = dict.fromkeys((*robot.driven_joints, *_joints_with_motor(robot)))
     others = [name for name in held if name not in turned]
