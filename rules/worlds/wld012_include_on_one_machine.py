@@ -4,8 +4,9 @@
 error, and the world has no such model. Where the model is the robot, there is nothing to simulate.
 Below the `WORKDIR` of a Dockerfile it is a warning: the model is in its container alone.
 
-Fix: write `model://rover`, and put the folder of the models on Gazebo's search path; or a path
-relative to the world.
+Fix: write `model://` and the name of the model, and put the folder of the models on Gazebo's search
+path; or a path relative to the world. In Gazebo's own store of downloaded models, the folder of a
+model contains one for each version.
 Source: SDFormat specification, include/uri.
 """
 
@@ -23,15 +24,21 @@ def check(world: World, package: Package) -> Findings:
     """Report includes whose path is in a home, on a drive, or in a built workspace."""
     for uri in world.unknown:
         if is_on_one_machine(uri.value):
-            name = posixpath.basename(uri.value.rstrip("/"))
             container = container_with(package, uri.value)
             where = f"in the container of {container}" if container else "on its author's machine"
             yield finding(
                 uri,
                 f"{uri.value} is {where}, and the world has no such model elsewhere: write "
-                f"model://{name}",
+                f"model://{_model_in(uri.value)}",
                 severity=Severity.WARNING if container else None,
             )
+
+
+def _model_in(path: str) -> str:
+    """Return the name of the model in a path; a number behind it is that of a version."""
+    above, name = posixpath.split(path.rstrip("/"))
+    is_version = name.isdecimal() and posixpath.basename(posixpath.dirname(above)) == "models"
+    return posixpath.basename(above) if is_version else name
 
 
 def _world(uri: str, mark: str = "") -> dict[str, str]:
@@ -50,6 +57,7 @@ _MARK = "  <!-- ^ WLD012 -->"
 GOOD = [_world("model://rover"), _world("https://fuel.gazebosim.org/1.0/acme/models/rover")]
 BAD = [
     _world("file:///home/ann/models/rover", _MARK),
+    _world("file:///home/ann/.gz/fuel/fuel.gazebosim.org/acme/models/rover/5", _MARK),
     {
         **_world("file:///home/ann/ws/models/rover", _MARK),
         "Dockerfile": "FROM ros:jazzy\nWORKDIR /home/ann/ws\n",
