@@ -100,7 +100,7 @@ def _without_effect(
         if meant := _for_each_joint(controller, name, names):
             message = f"{of_type} has no parameter {name}: expected {meant}, one for each joint"
             return finding(parameter.key, message)
-        suggestions = Suggestions(names)
+        suggestions = Suggestions(it for it in names if it not in controller.own)
         return finding(
             parameter.key,
             f"{of_type} has no parameter {name}{suggestions.hint(name)}",

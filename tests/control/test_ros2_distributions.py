@@ -127,6 +127,18 @@ def test_an_interface_matters_once_its_controller_is_started(
     assert drives == {severity}
 
 
+@pytest.mark.parametrize(
+    ("more", "hint"), [("", "; did you mean 'wheel_radius'?"), ("    wheel_radius: 0.1\n", "")]
+)
+def test_no_parameter_that_is_stated_is_suggested(more: str, hint: str, tmp_path: Path) -> None:
+    changed = CONTROLLERS.replace("wheel_radius: 0.1", "wheels_radius: 0.1")
+    example = {"@urdf": ARM.replace("@", "a/B"), "config/arm.yaml": f"{changed}{more}"}
+    settings = Settings(profile="ros2", profile_chosen=True, distro="jazzy", select=("R2C011",))
+    (report,) = check_package(write_example(example, tmp_path), settings).packages
+    (found,) = (it for it in report.findings if "wheels_radius" in it.message)
+    assert found.message.endswith(f"has no parameter wheels_radius{hint}")
+
+
 @pytest.mark.parametrize("rule", ["R2C010", "R2C011"])
 def test_a_changed_copy_of_a_controller_has_parameters_of_its_own(
     rule: str, tmp_path: Path
