@@ -10,7 +10,8 @@ before the build. No accepted package that we checked has this fault.
 
 Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*.yaml")`, installs
 the files that exist; give a folder that a pattern matches an entry of its own. git does not keep
-empty folders; `git add -f FILE` adds a file that `.gitignore` excludes.
+empty folders; `git add -f FILE` adds a file that `.gitignore` excludes. Do not remove the entry of
+`.setup_assistant`: MoveIt's launch files find the robot by it.
 Source: CMake, tested: `cmake --install` ends with "cannot find" for a file or folder, `cmake` with
 "Cannot find source file" or "does not exist" for a source or target; setuptools, tested: "can't
 copy …: doesn't exist or not a regular file".
@@ -42,6 +43,8 @@ _USES = re.compile(
     r"|ament_export_\w+|message"
 )
 """Commands that name a target and do not make it."""
+_OF_MOVEIT = ".setup_assistant"
+"""A hidden file, which uploads and patterns leave out."""
 _PYTHON_BUILD = ("setup.py", "setup.cfg", "pyproject.toml")
 _MADE_ELSEWHERE = re.compile(r"[$<*]|^/|^[A-Za-z]:")
 
@@ -85,8 +88,14 @@ def _of_install(
     for item in items:
         alike = _alike(package, install, item)
         ignored = ignored_by(package, item.value) if install.kind != "DIRECTORY" else ""
-        kept_out = kept_out or bool(ignored)
-        if ignored:
+        of_moveit = posixpath.basename(item.value) == _OF_MOVEIT
+        kept_out = kept_out or bool(ignored) or of_moveit
+        if of_moveit:
+            hints.append(
+                "without it MoveItConfigsBuilder looks for the URDF in config/ alone: make it with "
+                f"MoveIt's setup assistant, or git add -f {item.value}"
+            )
+        elif ignored:
             hints.append(f"{ignored} keeps it out of the repository: git add -f {item.value}")
         elif alike:
             hints.append(f"did you mean {alike[0]}?")
@@ -104,12 +113,23 @@ def _of_install(
 
 
 def _alike(package: Package, install: Install, item: Located[str]) -> list[str]:
-    """Return files whose names resemble a missing one's, without those that are installed too."""
-    if install.kind == "DIRECTORY":
-        return []
+    """Return files whose names resemble a missing one's, without those that are installed too.
+
+    For a folder, return those of its name one level further down.
+    """
     path = posixpath.normpath(item.value)
     others = {posixpath.normpath(each.value) for each in install.items}
-    return [name for name in package.index.similar_files(path) if name not in others]
+    is_folder = install.kind == "DIRECTORY"
+    names = _further_down(package, path) if is_folder else package.index.similar_files(path)
+    return [name for name in names if name not in others]
+
+
+def _further_down(package: Package, path: str) -> Iterator[str]:
+    above, name = posixpath.split(path)
+    for entry in package.index.entries.values():
+        folder, own = posixpath.split(entry.path)
+        if own == name and folder and posixpath.dirname(folder) == above and entry.is_folder:
+            yield entry.path
 
 
 def _without_setup(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
@@ -215,7 +235,9 @@ def _fix(package: Package, install: Install, items: Sequence[Located[str]]) -> F
 def _meant(item: Located[str], alike: Sequence[str]) -> str:
     """Return the one name that can be meant; empty without one."""
     same = [name for name in alike if name.lower() == posixpath.normpath(item.value).lower()]
-    return next((names[0] for names in (same, alike) if len(names) == 1), "")
+    meant = next((names[0] for names in (same, alike) if len(names) == 1), "")
+    # Behind a slash CMake installs what the folder contains.
+    return f"{meant}/" if meant and item.value.endswith("/") else meant
 
 
 def _missing_items(
@@ -318,6 +340,9 @@ BAD = [
     {"CMakeLists.txt": None, "setup.py": _SETUP.replace('/spawner.rb"]),', '"]),  # ^ PKG009')},
     {"CMakeLists.txt": _INSTALL.replace("urdf", "urdf meshes  # ^ PKG009")},
     {"CMakeLists.txt": f"{_INSTALL}install(FILES Model.sdf DESTINATION share)  # ^ PKG009\n"},
+    {
+        "CMakeLists.txt": f"{_INSTALL}install(FILES .setup_assistant DESTINATION x)  # ^ PKG009\n",
+    },
     # No file represents a folder.
     {"CMakeLists.txt": f"{_INSTALL}install(DIRECTORY model DESTINATION share)  # ^ PKG009\n"},
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import sys
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -164,14 +164,35 @@ def test_angles_that_the_file_does_not_state_have_no_fix(tmp_path: Path) -> None
     assert safeties(lidar, "SEN003", tmp_path) == ["none"]
 
 
-def test_no_file_takes_the_place_of_a_folder(tmp_path: Path) -> None:
-    build = "project(a)\ninstall(DIRECTORY model launch DESTINATION share/a)\n"
-    with open_input(write_example({"CMakeLists.txt": build}, tmp_path)) as opened:
+def installed(folder: Path, items: str, files: Mapping[str, str]) -> str:
+    """Return CMakeLists.txt as PKG009 corrects it."""
+    build = f"project(a)\ninstall({items} DESTINATION share/a)\n"
+    with open_input(write_example({"CMakeLists.txt": build, **files}, folder)) as opened:
         settings = Settings(trial=False, profile="subt", select=("PKG009",))
         after, _ = fixed(opened.packages[0], settings)
         source = after.read("CMakeLists.txt")
     assert isinstance(source, SourceText)
-    assert "install(DIRECTORY launch DESTINATION" in source.text
+    return source.text
+
+
+def test_no_file_takes_the_place_of_a_folder(tmp_path: Path) -> None:
+    assert "install(DIRECTORY launch DESTINATION" in installed(
+        tmp_path, "DIRECTORY model launch", {}
+    )
+
+
+@pytest.mark.parametrize(
+    ("before", "after"), [("halls", "media/halls"), ("halls/", "media/halls/")]
+)
+def test_a_folder_that_was_moved_is_installed_from_there(
+    before: str, after: str, tmp_path: Path
+) -> None:
+    text = installed(tmp_path, f"DIRECTORY launch {before}", {"media/halls/one.sdf": "<sdf/>"})
+    assert f"DIRECTORY launch {after} DESTINATION" in text
+
+
+def test_what_moveit_finds_the_robot_by_stays_installed(tmp_path: Path) -> None:
+    assert "FILES .setup_assistant" in installed(tmp_path, "FILES .setup_assistant", {})
 
 
 def test_no_package_depends_on_its_own_former_name(tmp_path: Path) -> None:
