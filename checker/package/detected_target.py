@@ -48,8 +48,8 @@ class DetectedTarget(Record):
 def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     """Read what a package is made for; else what launches it, or it launches, is made for.
 
-    Where neither shows a target, what is beside it may, then the scripts around it, and last that
-    it starts Gazebo Classic beside a later one.
+    Where neither shows a target, what is beside it may, then the scripts around it, that it starts
+    Gazebo Classic beside a later one, and last that those beside it are made for one target.
 
     Args:
         package: A package of ROS 2.
@@ -61,7 +61,7 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     found = _targets_of(launching(package), distro, "which launches it")
     found = found or _targets_of(launched_by(package), distro, "which it launches")
     if not found and not own.distro:
-        return _target_beside(package) or _target_around(package) or own
+        return _target_beside(package) or _target_around(package) or _common_target(package) or own
     if len(found) != 1:
         return own
     (target,) = found.values()
@@ -116,6 +116,17 @@ def _target_around(package: Package) -> DetectedTarget | None:
         reason = f"ROS 2 {distro.capitalize()} and Gazebo Harmonic: {words}, {start}"
         return DetectedTarget(False, known, reason, "harmonic")
     return DetectedTarget(False, known, f"ROS 2 {distro.capitalize()}: {words}")
+
+
+def _common_target(package: Package) -> DetectedTarget | None:
+    """Return the target of the packages beside a package: two show one, and none another.
+
+    One alone may be of others, and brought along.
+    """
+    others = [] if package.only else [*package.other_packages]
+    shown = [it for it in others if _shown_target(it, "").reason]
+    found = _targets_of(shown, "", "beside it")
+    return next(iter(found.values())) if len(shown) > 1 and len(found) == 1 else None
 
 
 def launching(package: Package) -> Iterator[Package]:

@@ -35,7 +35,7 @@ def check(launch: Ros2Launch, package: Package, description: UrdfDescription) ->
             yield finding(
                 loaded,
                 "ros2 launch stops: it parses the robot description as YAML, which it is not, "
-                "mostly for a colon and a blank in a comment; write "
+                "usually for a colon and a blank in a comment; write "
                 "ParameterValue(…, value_type=str) around it",
                 key="without type",
             )

@@ -1,7 +1,10 @@
 """An argument that the included launch file neither declares nor uses.
 
-It is accepted without a message and has no effect: with a misspelt name, the default is used. The
-usual launch files of nav2_bringup, slam_toolbox, ros_gz_sim and ros_gz_bridge are checked too,
+It is accepted without a message and has no effect: with a misspelt name, the default is used. This
+is a warning of such a name, and of an argument that names a file, such as a world or parameters,
+which then is not loaded: `gz_sim.launch.py` takes a world in `gz_args`.
+
+The usual launch files of nav2_bringup, slam_toolbox, ros_gz_sim and ros_gz_bridge are checked too,
 except in packages for Foxy and Galactic, whose arguments have other names; other files that are not
 available, and files that include such files, are not.
 
@@ -10,12 +13,17 @@ Source: launch, `IncludeLaunchDescription`: arguments become configurations, dec
 navigation2, slam_toolbox and ros_gz, humble to lyrical: arguments of their launch files.
 """
 
+import posixpath
+
 from checker.base.words import Suggestions
 from checker.launch.ros2.graph import Include, Ros2Launch, display_path
 from checker.launch.ros2.known_files import known_file
 from checker.package.distribution_sign import former_name
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
+
+_FILES = (".sdf", ".world", ".urdf", ".xacro", ".yaml", ".yml")
+_WORLD, _INSTEAD = "gz_args", "; a world belongs into gz_args"
 
 
 @rule("LCH006", "unknown-include-argument", Severity.INFO, Concern.INTERFACE)
@@ -29,12 +37,14 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
             names = Suggestions(include.accepts)
             for name, value in include.arguments.items():
                 if name not in include.accepts:
-                    near = names.closest(name)
+                    file = value.value.lower().endswith(_FILES)
+                    lost = f", so {posixpath.basename(value.value)} is not loaded" if file else ""
+                    meant = names.hint(name) or (_INSTEAD if _WORLD in include.accepts else "")
                     yield finding(
                         value,
                         f"{include.path or display_path(include.target.value)} neither declares "
-                        f"nor uses argument {name!r}{names.hint(name)}",
-                        severity=Severity.WARNING if near else None,
+                        f"nor uses argument {name!r}{lost}{meant}",
+                        severity=Severity.WARNING if file or names.closest(name) else None,
                     )
 
 
@@ -62,6 +72,13 @@ _NAV2 = """<launch>
 </launch>
 """
 
+_GZ = """<launch>
+  <include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py">
+    <arg name="world" value="/worlds/hall.sdf"/> <!-- ^ LCH006 -->
+  </include>
+</launch>
+"""
+
 GOOD = [
     {"@ros2": True, "launch/all.launch.xml": _NAV2.replace("@", "map")},
     {"@ros2": True, "launch/all.launch.xml": _NAV2.replace("@", "graph")},
@@ -81,6 +98,7 @@ GOOD = [
     },
 ]
 BAD = [
+    {"@ros2": True, "launch/all.launch.xml": _GZ},
     {
         "@ros2": True,
         "launch/all.launch.xml": _NAV2.replace('"@"', '"map_file"').replace(

@@ -9,7 +9,7 @@ Only robots with wheels whose size is known are compared, and those that nothing
 The ground is at z = 0; worlds with a heightmap are left out, and so are heights other than 0 where
 the world is not known: a floor may be there.
 
-Fix: give the spawning node the height that the message names: `-z 0.1`.
+Fix: give the spawning node the height that the message names, with `-z`.
 Source: ros_gz_sim, `create`; gazebo_ros, `spawn_entity.py`;
 ros-navigation/nav2_minimal_turtlebot_simulation#33.
 """

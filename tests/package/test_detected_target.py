@@ -196,6 +196,12 @@ SHARE = "share = get_package_share_directory('{}')\n"
         ({"bringup": "lift '/opt/ros/humble'"}, GZ_PLUGIN, ("ros2", "humble")),
         ({"bringup": "lift 'gzserver'"}, MESH.format("iron"), ("ros2", "iron")),
         ({"bringup": "lift_gui 'gzserver'"}, "", ("ros2", "")),
+        (
+            {"a": "lift_gui 'gzserver'", "b": "lift_gui 'gzserver'"},
+            "",
+            ("ros2-classic", "humble"),
+        ),
+        ({"a": "lift_gui 'gzserver'", "b": "lift_gui 'ign gazebo'"}, "", ("ros2", "")),
         ({"old": "lift 'gzserver'", "new": "lift '/opt/ros/jazzy'"}, "", ("ros2", "")),
         ({"a": "lift '/opt/ros/jazzy'", "b": "lift '/opt/ros/jazzy'"}, "", ("ros2", "jazzy")),
     ],
