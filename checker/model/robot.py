@@ -197,10 +197,14 @@ class Robot(Part, dict=True):
         """Parts that its drive plugins move, and their limits."""
         return read_locomotion(self)
 
-    @property
+    @cached_property
     def balances(self) -> bool:
-        """True if its name says that a controller keeps it upright, as on two wheels."""
-        return _BALANCING.search(self.name.value) is not None
+        """True if a controller keeps it upright: by its name, or on two wheels at ends of legs."""
+        wheels = self.locomotion.undriven
+        parents = (f"{it.joint.scope}{it.joint.parent.value}" for it in wheels)
+        on_legs = len(wheels) == 2 and self.tree.base.isdisjoint(parents)
+        named = _BALANCING.search(self.name.value) is not None
+        return named or (on_legs and not self.locomotion.wheels)
 
     @cached_property
     def stands_alone(self) -> bool:

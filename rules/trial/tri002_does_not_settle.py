@@ -4,7 +4,8 @@ The robot sinks, tips, jumps, slides or folds up before any command, so all late
 meaningless: how it drives is then not checked. Usually a collision is missing or tilted, parts
 start inside each other, or the inertia of a part is far too small. Outside of SubT, only robots
 that drive are checked: others may be fixed by the model that includes them. A robot whose name says
-that it balances falls without its controller, and is not checked.
+that it balances, or that stands on two wheels at the ends of legs, falls without its controller,
+and is not checked.
 
 Fix: check first the collisions and inertias of the parts that touch the ground.
 Source: experience; the robot starts 10 mm above the ground and gets no command for 2 s.

@@ -11,6 +11,7 @@ from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import Settings
+from tests.model.robots import urdf
 
 _SOLID = """<inertial><origin xyz="0 0 {z}"/><mass value="{mass}"/>
 <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>
@@ -50,6 +51,19 @@ def test_an_arm_is_mounted_and_a_rover_stands(tmp_path: Path) -> None:
 def test_a_robot_that_balances_falls_without_its_controller(tmp_path: Path) -> None:
     leaning_rover = checked(_BASE + leaning("wheel"), tmp_path, name="self_balancing")
     assert "INE009" not in severities(leaning_rover)
+
+
+@pytest.mark.parametrize(("legs", "balances"), [("revolute", True), ("fixed", False)])
+def test_two_wheels_at_the_ends_of_legs_balance(legs: str, balances: bool) -> None:
+    parts = "".join(
+        f"""<link name="{side}_leg"/><joint name="{side}_hip" type="{legs}">
+<parent link="base_link"/><child link="{side}_leg"/><origin xyz="0 {y} 0"/><axis xyz="0 1 0"/>
+</joint><link name="{side}_wheel"><collision><geometry><sphere radius="0.1"/></geometry>
+</collision></link><joint name="{side}_axle" type="continuous"><parent link="{side}_leg"/>
+<child link="{side}_wheel"/><origin xyz="0 0 -0.3"/><axis xyz="0 1 0"/></joint>"""
+        for side, y in (("left", 0.2), ("right", -0.2))
+    )
+    assert urdf(f'<link name="base_link"/>{parts}').balances is balances
 
 
 def test_the_trial_holds_the_base_of_an_arm(tmp_path: Path) -> None:
