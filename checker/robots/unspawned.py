@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
@@ -12,10 +12,11 @@ from checker.launch.ros2.graph import LaunchGraph
 from checker.launch.ros2.package_launch import launch_graphs
 from checker.package.files_above import README, files_above
 from checker.package.kind import PackageKind
+from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.package.target import package_around
 from checker.robots.shown_only import spawns_others
-from checker.source.text import SourceText
+from checker.source.text import SourceText, without_comments
 from checker.source.unused_values import without_unused_values
 
 _NAMING = (
@@ -24,6 +25,14 @@ _NAMING = (
 )
 _COMPUTED = re.compile(r"""(?:[\]\})]|["']\s*[,+]\s*["']|["'])\.(?:world|sdf)\b""")
 """The name of a world that a launch file puts together."""
+_WORLDS = (".world", ".sdf")
+_WORLD_TAG = re.compile(r"<world\b")
+_URI = re.compile(r"<uri>([^<>]{1,300})</uri>")
+_SPAWNING = re.compile(
+    r"""[\s"']-(?:file|database)\b|\bsdf_filename\b|\bSpawn(?:Entity|Model)\b|\bEntityFactory\b"""
+    r"""|\bInsertModel"""
+)
+"""What puts a model of a file into a world, by whatever name."""
 _OF_URDF = (".urdf", ".urdf.xacro", ".xacro")
 """Suffixes of the description that an SDF model was converted from."""
 _OF_EDITOR = "model_editor_models"
@@ -47,15 +56,23 @@ def unstarted_world(package: Package) -> str:
     launches = package.workspace.launch_texts.values()
     if not (around.launch_texts if around else launches) or any(map(_COMPUTED.search, launches)):
         return ""
-    stem = file.partition(".")[0]
-    names = (file, f'"{stem}"', f"'{stem}'")
     own = (package.root / file).relative_to(around.root).as_posix() if around else ""
-    texts = (_used(text, names) for text in _texts(around, package, own))
-    above = (it.text for sources in files_above(package, README) for it in sources)
-    lines = chain.from_iterable(text.splitlines() for text in chain(texts, above))
-    if any(_BRANCH not in line and any(name in line for name in names) for line in lines):
+    texts = (text for _, text in _texts(around, package, own))
+    if _is_started(chain(texts, _pages_above(package)), file):
         return ""
     return f"only in {file}, which no launch file starts"
+
+
+def _pages_above(package: Package) -> Iterator[str]:
+    return (it.text for sources in files_above(package, README) for it in sources)
+
+
+def _is_started(texts: Iterable[str], file: str) -> bool:
+    """Return whether texts have the name of a world's file, or its stem as a value."""
+    stem = file.partition(".")[0]
+    names = (file, f'"{stem}"', f"'{stem}'")
+    lines = chain.from_iterable(_used(text, names).splitlines() for text in texts)
+    return any(_BRANCH not in line and any(name in line for name in names) for line in lines)
 
 
 def _used(text: str, names: Sequence[str]) -> str:
@@ -83,13 +100,16 @@ def unspawned(package: Package, path: str) -> str:
     if beside or (package.only and name in package.workspace.packages):
         # The name alone means the URDF or the package.
         name = posixpath.basename(path)
-    texts = [*_texts(around, package, own)]
-    if any(name in text for text in texts):
-        return ""
+    by_path = dict(_texts(around, package, own))
+    texts = [*by_path.values()]
     clause = f"only in {file}, which no launch file loads"
-    if beside and around.launch_texts and not any(map(_COMPUTED.search, texts)):
+    is_named = any(name in text for text in texts)
+    converted = beside and around.launch_texts and not any(map(_COMPUTED.search, texts))
+    is_world = package.kind is PackageKind.WORLD or path.endswith(".world")
+    apart = not is_world and _is_in_no_started_world(around, by_path, name)
+    if apart or (converted and not is_named):
         return clause
-    graphs = launch_graphs(around)
+    graphs = () if is_named else launch_graphs(around)
     loaded = [(graph, it) for graph in graphs for it in loaded_descriptions(around, graph)]
     if (
         not loaded
@@ -100,11 +120,50 @@ def unspawned(package: Package, path: str) -> str:
     return clause
 
 
+def _is_in_no_started_world(around: Package, texts: Mapping[str, str], name: str) -> bool:
+    """Return whether launch files start a world, and no world that one starts has a model.
+
+    Nothing else may name the model, or spawn models of files.
+
+    Args:
+        around: The package of the model and of the worlds.
+        texts: The texts that may name either, by path, without those of the model.
+        name: The name of the model's folder.
+    """
+    worlds = [path for path, text in texts.items() if _is_world(path, text)]
+    others = [text for path, text in texts.items() if path not in worlds]
+    if any(map(_SPAWNING.search, others)) or any(map(_COMPUTED.search, others)):
+        return False
+    launches = [without_comments(*it) for it in around.launch_texts.items()]
+    if not any(_is_started(launches, posixpath.basename(it)) for it in worlds):
+        return False
+    holding = [path for path, text in texts.items() if _has(path, text, name)]
+    pages = [*_pages_above(around)]
+    plain = [without_comments(*it) for it in texts.items() if it[0] not in worlds]
+    starting = [*plain, *pages]
+    return not any(has_word(page, name) for page in pages) and all(
+        path in worlds and not _is_started(starting, posixpath.basename(path)) for path in holding
+    )
+
+
+def _is_world(path: str, text: str) -> bool:
+    return path.endswith(_WORLDS) and _WORLD_TAG.search(text) is not None
+
+
+def _has(path: str, text: str, name: str) -> bool:
+    """Return whether a file names a model; SDF includes it by a URI, and model.config none."""
+    if not path.endswith(_WORLDS):
+        return not path.endswith("model.config") and has_word(text, name)
+    parts = [part for uri in _URI.findall(text) for part in uri.strip().split("/")]
+    return any(name in (part, part.partition(".")[0]) for part in parts)
+
+
 def _left_by_editor(package: Package, path: str) -> str:
     """Return the clause that launch files load no model of Gazebo's model editor; else empty."""
     name = package.root.name
     names = (f"model://{name}", f"{name}/{path}")
-    texts = [*_texts(None, package, ""), *package.workspace.launch_texts.values()]
+    others = (text for _, text in _texts(None, package, ""))
+    texts = [*others, *package.workspace.launch_texts.values()]
     named = any(each in text for text in texts for each in names)
     starts = bool(package.workspace.launch_words)
     return f"only in {name}/{path}, which no launch file loads" if starts and not named else ""
@@ -116,8 +175,8 @@ def may_load_others(graph: LaunchGraph, loaded: LoadedDescription) -> bool:
     return any(value and value in loaded.load.path for value in values)
 
 
-def _texts(around: Package | None, package: Package, own: str) -> Iterator[str]:
-    """Yield the texts of the package around a model, and of those next to it.
+def _texts(around: Package | None, package: Package, own: str) -> Iterator[tuple[str, str]]:
+    """Yield the texts of the package around a model, and of those next to it, with their paths.
 
     Args:
         around: The package that the model is in, if any; packages within it are left out.
@@ -132,4 +191,4 @@ def _texts(around: Package | None, package: Package, own: str) -> Iterator[str]:
             of_model = holder is around and entry.path.startswith(own)
             source = None if of_model else holder.read(entry.path)
             if isinstance(source, SourceText):
-                yield source.text
+                yield (holder.root / entry.path).as_posix(), source.text

@@ -52,3 +52,48 @@ def test_a_model_that_nothing_names(
 
     found = {it.name: it.findings[0].severity for it in report.packages if it.findings}
     assert found == {"rover": Severity.ERROR, "trike": severity}
+
+
+_STARTS = f"""
+share = get_package_share_directory('{NAME}')
+return LaunchDescription([
+    # The other world: 'yard.world'
+    IncludeLaunchDescription(PythonLaunchDescriptionSource(WORLD + '/gzserver.launch.py'),
+        launch_arguments={{'world': os.path.join(share, 'worlds', 'hall.world')}}.items()),@])
+"""
+_SPAWNS = "Node(package='ros_gz_sim', executable='create', arguments=['-file', FILE])"
+_HALL = '<sdf version="1.6"><world name="hall"/></sdf>'
+_YARD = _WORLD.replace("trike", "toys/trike").replace("hall", "yard")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("launched", "more", "severity"),
+    [
+        ("", {}, Severity.WARNING),
+        ("", {"worlds/hall.world": _YARD}, Severity.ERROR),
+        ("", {"README.md": "world:=yard.world shows more"}, Severity.ERROR),
+        ("", {"scripts/add.py": "NAMES = ['trike']\n"}, Severity.ERROR),
+        (_SPAWNS, {}, Severity.ERROR),
+    ],
+)
+def test_a_model_of_a_world_that_no_launch_file_starts(
+    launched: str, more: dict[str, str], severity: Severity, tmp_path: Path
+) -> None:
+    files = {
+        "package.xml": PACKAGE_XML,
+        "CMakeLists.txt": CMAKE,
+        "launch/hall.launch.py": python(_STARTS.replace("@", launched)),
+        "worlds/hall.world": _HALL,
+        "worlds/yard.world": _YARD,
+        "models/toys/trike/model.sdf": _MODEL.replace("@", "trike"),
+        "models/toys/trike_2/model.config": "<model><name>trike</name></model>",
+        **more,
+    }
+    for name, text in files.items():
+        path = tmp_path / NAME / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    report = check_paths([tmp_path], {"select": ("INE002",), "trial": False, "cache": False})
+
+    assert [it.findings[0].severity for it in report.packages if it.findings] == [severity]
