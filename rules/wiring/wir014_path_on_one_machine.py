@@ -9,6 +9,7 @@ works in its container alone. The placeholder of a template, `/path/to/your/arm.
 machine. In launch files of ROS 1 and ROS 2, defaults of arguments, parameters and the files that a
 command line gives a node to read are judged, and those in commands of ROS 2; also the
 files that a launch file opens, or gives to xacro, for a parameter: the launch stops without them.
+So are the folders that it puts on a search path of the environment: Gazebo finds no models there.
 
 Fix: install the file with the package, and give its path in the launch file; or write
 `$(find-pkg-share PACKAGE)/maps/hall.yaml`, and load the file with `allow_substs=True`. In ROS 1
@@ -34,7 +35,7 @@ _FILE = re.compile(r"[^/\\]\.[A-Za-z]\w{1,9}\Z")
 _WITHOUT_SUFFIX = frozenset({"map_file_name"})
 """Parameters of files to which the node adds the suffix, as slam_toolbox does."""
 _FOLDER = re.compile(r"""["'](/(?:home|Users)/[^"'\n]{1,300})["']""")
-_READ = re.compile(r"\.(?:rviz|ya?ml|urdf|xacro|sdf|world|lua)\Z")
+_READ = re.compile(r"\.(?:rviz|ya?ml|urdf|xacro|sdf|sh|world|lua)\Z")
 """Ends of files that a node reads where its command line names one."""
 _ARGUMENT, _OF_COMMAND = "argument {}", "the command line of {}"
 _OPENING = ("$(file-content ", "$(command ")
@@ -54,11 +55,9 @@ def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -
     named = [*_in_ros_2(launch)] if launch is not None else []
     if not is_ros2_only(package):
         named += _in_ros_1(entries)
-    wrong = (
-        (label, text)
-        for label, text in named
-        if _is_wrong(text) and not text.span.source.file.startswith("../")
-    )
+    wrong = [(label, text) for label, text in named if _is_wrong(text)]
+    wrong += _in_environment(launch) if launch is not None else ()
+    wrong = [it for it in wrong if not it[1].span.source.file.startswith("../")]
     parts = ((label, text, _written_part(text)) for label, text in wrong)
     own = {part.span.place(): (label, text, part) for label, text, part in parts if part}
     for label, text, part in own.values():
@@ -97,6 +96,15 @@ def _in_ros_2(launch: Ros2Launch) -> Iterator[tuple[str, Located[str]]]:
                 elif isinstance(it.value, str) and not is_written(it.name):
                     yield f"parameter {it.name}", Located(it.value, it.span)
                     yield from _opened(it.name, it.value, it.span)
+
+
+def _in_environment(launch: Ros2Launch) -> Iterator[tuple[str, Located[str]]]:
+    """Yield the folders on one machine that variables of the environment name."""
+    for graph in launch.entries:
+        for change in graph.environment:
+            for part in change.value.value.split(":"):
+                if is_on_one_machine(part):
+                    yield f"a folder of {change.name}", Located(part, change.value.span)
 
 
 def _opened(name: str, value: str, span: Span) -> Iterator[tuple[str, Located[str]]]:
@@ -229,7 +237,17 @@ def generate_launch_description():
     node = Node(package="arm_sim", executable="sim", parameters=[{"robot_description": text}])
     return LaunchDescription([node])
 """
+_FOLDERS = """from launch import LaunchDescription
+from launch.actions import SetEnvironmentVariable
+
+
+def generate_launch_description():
+    models = "/home/ann/gazebo_models"  # ^ WIR014
+    return LaunchDescription([
+        SetEnvironmentVariable("GZ_SIM_RESOURCE_PATH", "/opt/models:" + models)])
+"""
 BAD = [
+    {"@ros2": True, "launch/sim.launch.py": _FOLDERS},
     {"@ros2": True, "launch/sim.launch.py": _JOINED},
     {"@ros2": True, "launch/sim.launch.py": _OPENED},
     {
