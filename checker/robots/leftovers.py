@@ -1,14 +1,15 @@
-"""Descriptions that nothing names, beside one that a program or a page names."""
+"""Descriptions that nothing names, beside one that a program names or a world that is started."""
 
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, islice
 
+from checker.package.files_above import README, files_around
 from checker.package.mentions import has_file
 from checker.package.package import Package
-from checker.source.text import SourceText
+from checker.source.text import SourceText, without_comments
 from checker.source.xml import XmlDocument
 
 _NAMING = (
@@ -16,6 +17,9 @@ _NAMING = (
     *(".md", ".rst", ".ipynb", ".m"),
 )
 _PAGES = (".ts", ".tsx", ".js", ".jsx", ".html", ".vue")
+_WORLDS = (".sdf", ".world")
+_OF_URDF = ("robot_description", ".urdf", ".xacro")
+"""What a launch file contains that may load a description, by whatever name."""
 _TEXTS_LIMIT = 400
 """Files of the workspace that are searched for names of descriptions."""
 
@@ -29,14 +33,45 @@ def leftovers(package: Package, documents: Mapping[str, XmlDocument]) -> frozens
     """
     if len(documents) == 1:
         return frozenset()
+    left = _unnamed(package, documents)
+    return left if len(left) < len(documents) else frozenset()
+
+
+def left_beside_world(package: Package, paths: Iterable[str]) -> frozenset[str]:
+    """Return paths of descriptions that nothing names, where a world with a robot is started.
+
+    Launch files of the package start this world of it, and none loads any description.
+
+    Args:
+        package: The package being checked.
+        paths: Its descriptions, none of which a launch file loads.
+    """
+    naming = [without_comments(*it) for it in package.naming_launch_texts.items()]
+    if any(word in text for text in naming for word in _OF_URDF):
+        return frozenset()
+    started = [without_comments(*it) for it in package.launch_texts.items()]
+    worlds = (it.path for it in package.index.with_suffix(*_WORLDS))
+    named = (it for it in worlds if any(has_file(text, posixpath.basename(it)) for text in started))
+    return _unnamed(package, paths) if any(_has_robot(package, it) for it in named) else frozenset()
+
+
+def _has_robot(package: Package, path: str) -> bool:
+    """Return whether a world itself contains a model with joints and a plugin."""
+    document = package.xml(path)
+    root = document.root if isinstance(document, XmlDocument) else None
+    models = chain.from_iterable(it.all("model") for it in root.all("world")) if root else ()
+    return any(it.child("joint") and it.child("plugin") for it in models)
+
+
+def _unnamed(package: Package, paths: Iterable[str]) -> frozenset[str]:
     workspace = package.workspace
     packages = {it.root: it for it in (package, *workspace.packages.values())}.values()
     texts = [
         *islice(chain.from_iterable(_texts(it, _NAMING) for it in packages), _TEXTS_LIMIT),
         *workspace.launch_texts.values(),
+        *(page.text for page in files_around(package, README)),
     ]
-    left = frozenset(path for path in documents if not any(_names(it, path) for it in texts))
-    return left if len(left) < len(documents) else frozenset()
+    return frozenset(path for path in paths if not any(_names(it, path) for it in texts))
 
 
 def is_of_page(package: Package, path: str) -> bool:

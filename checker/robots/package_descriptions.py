@@ -35,7 +35,7 @@ from checker.robots.candidates import (
 from checker.robots.compared_arguments import with_compared
 from checker.robots.empty_arguments import SAMPLE, empty_arguments, is_refused_alike
 from checker.robots.fullest import fullest
-from checker.robots.leftovers import leftovers
+from checker.robots.leftovers import left_beside_world, leftovers
 from checker.robots.optional_parts import is_optional_part
 from checker.robots.other_robots import Made, in_words, other_robots
 from checker.robots.shown_only import shown_only
@@ -188,9 +188,12 @@ class PackageDescriptions:
         if self._for_rviz or self._package.only:
             return [*descriptions]
         if not any(it.file in loaded for it in descriptions):
-            left = leftovers(self._package, {it.file: it.document for it in descriptions})
+            documents = {it.file: it.document for it in descriptions}
+            left = dict.fromkeys(leftovers(self._package, documents), "nothing loads")
+            beside = left_beside_world(self._package, documents)
+            left |= dict.fromkeys(beside, "no launch file loads")
             return [
-                replace(it, unloaded=f"only in {it.file}, which nothing loads")
+                replace(it, unloaded=f"only in {it.file}, which {left[it.file]}")
                 if it.file in left
                 else it
                 for it in descriptions

@@ -352,3 +352,44 @@ def test_what_the_model_editor_saved_weighs_less(tmp_path: Path) -> None:
     settings = Settings(select=("INE002",), trial=False)
     found = [it for report in check_package(tmp_path, settings).packages for it in _faults(report)]
     assert [it.severity for it in found] == [Severity.WARNING]
+
+
+_WORLD = """<sdf version="1.8"><world name="hall"><model name="trike"><link name="base_link"/>
+<link name="wheel"/><joint name="axle" type="revolute"><parent>base_link</parent>
+<child>wheel</child><axis><xyz>0 1 0</xyz></axis></joint>@</model></world></sdf>"""
+_PLUGIN = '<plugin filename="ignition-gazebo-diff-drive-system" name="a::B"/>'
+_START = f"""
+world = os.path.join(get_package_share_directory('{NAME}'), 'worlds', 'hall.sdf')
+return LaunchDescription([ExecuteProcess(cmd=['ign', 'gazebo', world])@])
+"""
+_PUBLISHER = ", Node(package='robot_state_publisher', parameters=[{'robot_description': TEXT}])"
+
+
+@pytest.mark.parametrize(
+    ("plugin", "publisher", "page", "severity"),
+    [
+        (_PLUGIN, "", "A trike", Severity.WARNING),
+        ("", "", "A trike", Severity.ERROR),
+        (_PLUGIN, _PUBLISHER, "A trike", Severity.ERROR),
+        (_PLUGIN, "", "Spawn urdf/cart.urdf by hand", Severity.ERROR),
+    ],
+)
+def test_a_description_beside_a_world_with_a_robot(
+    plugin: str, publisher: str, page: str, severity: Severity, tmp_path: Path
+) -> None:
+    files = {
+        "package.xml": PACKAGE_XML,
+        "CMakeLists.txt": CMAKE,
+        "README.md": page,
+        "launch/hall.launch.py": python(_START.replace("@", publisher)),
+        "worlds/hall.sdf": _WORLD.replace("@", plugin),
+        "urdf/cart.urdf": f'<robot name="cart">{_link(_FAULTY)}</robot>',
+    }
+    for name, text in files.items():
+        path = tmp_path / NAME / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    report = check_package(tmp_path / NAME, Settings(select=("INE002",), trial=False))
+
+    (found,) = (it for package in report.packages for it in package.findings)
+    assert found.severity is severity
