@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from checker.base.record import Record
 from checker.package.fuel import is_on_fuel, path_from_fuel
 from checker.package.installed import source_of
+from checker.package.resource_path import searched_folders
 from checker.package.target import package_around
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     A path below an installed package is that of the file in the source which is installed there,
     also where it names the folder of the installation. A path on its author's machine is that of
     the same file in the package, if it has one. So is a path below a folder that Gazebo may search.
+    A model that lacks the file may be another one of that name.
 
     Args:
         package: The package whose file states it.
@@ -63,7 +65,10 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     """
     if named := _SCHEME.match(uri) or _INSTALLED.fullmatch(uri):
         inside = _in_package(package, *named.groups())
-        below = below_searched_folder(package, uri) if isinstance(inside, Unknown) else None
+        if isinstance(inside, Unknown):
+            below = below_searched_folder(package, uri)
+        else:
+            below = None if package.exists(inside) else _in_namesake(package, uri)
         return inside if below is None else _from(package, *below)
     if is_on_fuel(uri):
         on_fuel = path_from_fuel(package, uri)
@@ -153,6 +158,27 @@ def below_searched_folder(package: Package, uri: str) -> tuple[Package, str] | N
         return None
     found = [*around.index.ending(end), *([end] if around.exists(end) else [])]
     return (around, found[0]) if len(found) == 1 else None
+
+
+def _in_namesake(package: Package, uri: str) -> tuple[Package, str] | None:
+    """Return the package and the file of a `model://` whose model is in another folder of the name.
+
+    A folder that the package around adds to Gazebo's search path comes first.
+    """
+    end = uri.removeprefix(_MODEL)
+    around = package_around(package) or package
+    if end == uri or "/" not in end or not around.exists("package.xml"):
+        return None
+    searched = {
+        posixpath.join(it.folder, end)
+        for classic in (True, False)
+        for it in searched_folders(around, classic=classic)
+        if it.folder is not None
+    }
+    found = sorted(
+        around.index.ending(end), key=lambda it: f"{around.declared_name}/{it}" not in searched
+    )
+    return (around, found[0]) if found else None
 
 
 def _from(package: Package, around: Package, path: str) -> str:

@@ -19,7 +19,8 @@ An absolute path such as `/home/me/arm/a.stl` is found on the machine of its aut
 The models that a world file contains are checked as well. `model://` of a model that is not there
 may be one of Fuel, or of the user's own, and is not checked. Where it ends as one file of the
 package of ROS does, `model://meshes/arm.stl` as `models/meshes/arm.stl`, Gazebo finds it if the
-folder above is on its search path: a warning if nothing in the workspace names that path.
+folder above is on its search path: a warning if nothing in the workspace names that path. Where
+several folders have the name of the model, one of them with the file is enough.
 
 A file that a CMakeLists.txt of the package, or of a folder around it, downloads is not checked. One
 that a `.gitignore` keeps out of the repository is a warning: its author has it.
