@@ -2,7 +2,7 @@
 
 The part is invisible, or has no collision. Gazebo Dome and Gazebo Classic read COLLADA, STL and
 OBJ; Garden and later also read glTF and FBX. A URDF without a `<gazebo>` element may be for other
-tools: there it is a warning.
+tools: there it is a warning. A file that does not exist is a matter of REF002 alone.
 
 Fix: export the mesh as COLLADA (.dae) or OBJ with its textures, or as STL for a collision.
 Source: gz-common, MeshManager: its list of file extensions in version 3 (Dome) and 5 (Garden).
@@ -11,7 +11,10 @@ Source: gz-common, MeshManager: its list of file extensions in version 3 (Dome) 
 import posixpath
 
 from checker.model.robot import Robot
+from checker.package.package import Package
+from checker.package.uris import path_behind
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.source.text import Located
 
 _SINCE_GARDEN = frozenset({".fbx", ".glb", ".gltf"})
 
@@ -19,6 +22,7 @@ _SINCE_GARDEN = frozenset({".fbx", ".glb", ".gltf"})
 @rule("MSH003", "unsupported-mesh-format", Severity.ERROR, Concern.ROBOT)
 def check(
     robot: Robot,
+    package: Package,
     context: Context,
     *,
     formats: tuple[str, ...] = (".dae", ".obj", ".stl"),
@@ -37,7 +41,7 @@ def check(
     target = f"Gazebo {context.release.title()}".rstrip()
     for use in robot.mesh_uses:
         suffix = posixpath.splitext(use.uri.value)[1]
-        if suffix.lower() not in known:
+        if suffix.lower() not in known and not _is_missing(package, use.uri):
             yield finding(
                 use.uri,
                 f"{use.uri.value} is "
@@ -46,6 +50,11 @@ def check(
                 severity=None if robot.is_for_gazebo else Severity.WARNING,
                 key=suffix.lower(),
             )
+
+
+def _is_missing(package: Package, uri: Located[str]) -> bool:
+    path = path_behind(package, Robot.folder_of(uri), uri.value)
+    return isinstance(path, str) and not package.exists(path)
 
 
 def _visual(uri: str, mark: str = "") -> str:
@@ -57,5 +66,8 @@ def _visual(uri: str, mark: str = "") -> str:
 
 
 _MARK = "  <!-- ^ MSH003 -->"
-GOOD = [_visual("a.dae"), _visual("a.STL"), _visual("a.obj")]
-BAD = [_visual("a.glb", _MARK), _visual("a.blend", _MARK), _visual("a", _MARK)]
+GOOD = [_visual("a.dae"), _visual("a.STL"), _visual("a.obj"), _visual("missing.blend")]
+BAD = [
+    {"@fragment": _visual(name, _MARK), f"meshes/{name}": "mesh"}
+    for name in ("a.glb", "a.blend", "a")
+]
