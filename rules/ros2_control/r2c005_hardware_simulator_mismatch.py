@@ -9,7 +9,8 @@ Without any `<ros2_control>` tag the plugin stops, and there is no controller ma
 workspace that has the plugin and the same joints takes the place of the URDF file in Gazebo. In a
 description that launch files load and never spawn, where they spawn another one or give it to
 ros2_control_node, nothing is an error, and hardware of a real robot is right. ros2_control_node
-cannot load hardware of Gazebo: it loads no hardware at all, and no controller starts.
+cannot load hardware of Gazebo: it loads no hardware at all, and no controller starts. What a xacro
+file lacks that other files include and no launch file names may be in these: it is not reported.
 
 Fix: write the plugin below `<gazebo>`, with `<parameters>`, and the hardware of the same simulator:
 from Harmonic on `gz_ros2_control-system`, `gz_ros2_control::GazeboSimROS2ControlPlugin` and
@@ -21,12 +22,14 @@ Source: gz_ros2_control, gz_hardware_plugins.xml and GZ_ADD_PLUGIN of each branc
 is none of hardware_interface, which alone ros2_control_node loads.
 """
 
+import posixpath
 from collections.abc import Iterator, Mapping
 
 from msgspec.structs import replace
 
 from checker.formats.xacro.expanded import ExpandedText
 from checker.package.package import Package
+from checker.robots.candidates import is_included
 from checker.ros.ros2_control.distributions import is_of_gazebo
 from checker.ros.ros2_control.exported_hardware import is_exported_for_gazebo
 from checker.ros.ros2_control.hardware import Hardware
@@ -146,8 +149,14 @@ def _found(control: RobotControl, package: Package, context: Context) -> Iterato
         yield from _names(manager, context.release)
         yield from _another_library(control, manager)
     # With another value of an argument the robot may be the real one, and no Gazebo runs.
-    if control.by_default:
+    if control.by_default and not _is_part(package, control.robot.document.source.file):
         yield from _disagreement(control, package)
+
+
+def _is_part(package: Package, file: str) -> bool:
+    """Return whether a file is a part of other robots, and none that a launch file loads."""
+    launched = package.workspace.launches_file(posixpath.basename(file))
+    return not launched and is_included(package, file)
 
 
 def _another_library(control: RobotControl, manager: GazeboManager) -> Iterator[Finding]:
@@ -266,6 +275,10 @@ _EXPORTED = """<library path="acme">
   <class name="acme_gazebo/Arm" base_class_type="gz_ros2_control::GazeboSimSystemInterface"/>
 </library>
 """
+_INCLUDING = """<robot name="cell" xmlns:xacro="http://ros.org/wiki/xacro">
+<xacro:include filename="$(find acme_arm_description)/urdf/arm.urdf"/>
+</robot>
+"""
 GOOD = [
     _managed("", _SPAWN),
     _arm(_plugin(*_GZ)),
@@ -277,6 +290,12 @@ GOOD = [
         **_arm(_plugin(*_GZ), "<plugin>acme_gazebo/Arm</plugin>"),
         "../acme_gazebo/package.xml": "<package><name>acme_gazebo</name></package>",
         "../acme_gazebo/plugins.xml": _EXPORTED,
+    },
+    {
+        "@urdf": _plugin(*_GZ),
+        "launch/spawn.launch": None,
+        "../acme_cell/package.xml": "<package><name>acme_cell</name></package>",
+        "../acme_cell/urdf/cell.urdf.xacro": _INCLUDING,
     },
 ]
 BAD = [
