@@ -356,6 +356,8 @@ SKIDDING = REAR_GRIP.partition("<plugin")[0] + GRIP.replace(
     "</plugin>", "<left_joint>rear_axle</left_joint></plugin>"
 )
 
+OF_ROS_1 = '<plugin filename="libgazebo_ros_{}.so" name="p"/>'
+
 CASES: list[tuple[str, Example, str]] = [
     ("SDF013", FRICTION.format(second=""), "info"),
     ("SDF013", FRICTION.format(second="<mu>1</mu>"), "warning"),
@@ -401,6 +403,10 @@ CASES: list[tuple[str, Example, str]] = [
     ("URD015", {"@urdf": SHIFTED.format("0 0 1")}, "error"),
     ("URD015", {"@urdf": LENS.format("fixed")}, "warning"),
     ("URD015", {"@urdf": LENS.format("continuous")}, "error"),
+    *(
+        ("PLG012", {**CLASSIC_2, "@fragment": OF_ROS_1.format(library)}, severity)
+        for library, severity in (("laser", "error"), ("api_plugin", "warning"))
+    ),
     ("PLG012", {**CLASSIC_2, "@fragment": EYE.format("image_raw")}, "warning"),
     ("PLG012", {**CLASSIC_2, "@fragment": EYE.format("front/image")}, "error"),
     (

@@ -112,11 +112,13 @@ def _parameters_of_ros_2(plugin: Plugin) -> Iterator[Finding]:
 
 def _library(plugin: Plugin, known: Mapping[str, Any]) -> Finding:
     instead, how = known["instead"], known.get("how", "")
-    advice = f"use {instead}" if instead else "it has no replacement"
+    advice = f"use {instead}" if instead else "remove it" if how else "it has no replacement"
     return finding(
         plugin.filename,
         f"{plugin.filename.value} is a plugin of ROS 1, which Gazebo does not find with ROS 2: "
         f"{advice}{f' ({how})' if how and instead else f': {how}' if how else ''}",
+        # Another part of Gazebo does the work of one without a replacement.
+        severity=Severity.WARNING if how and not instead else None,
         key=plugin.filename.value,
         fix=replace_text(plugin.filename, instead, Safety.UNSAFE) if instead else None,
     )
