@@ -32,9 +32,9 @@ _CONTROL = """<ros2_control name="c" type="system"><joint name="shoulder">
   <command_interface name="position"/></joint></ros2_control>"""
 
 
-def rover(content: str, more: str = _ARM) -> Robot:
+def rover(content: str, more: str = _ARM, wheel: str = _WHEEL) -> Robot:
     wheels = "".join(
-        _WHEEL.format(
+        wheel.format(
             name=f"{end}_{side}", x=x, y=y, inertial=_INERTIAL.format(1, 0.003, 0.005, 0.003)
         )
         for end, x in (("front", 0.25), ("rear", -0.25))
@@ -68,6 +68,13 @@ def test_a_skid_steer_drive_moves_a_urdf_robot() -> None:
 
     assert speed == pytest.approx(1.0, abs=0.03)
     assert turn > 0.2
+
+
+def test_a_drive_of_classic_replaces_the_friction_of_its_joints() -> None:
+    rubbing = _WHEEL.replace("</joint>", '<dynamics friction="50" damping="0"/></joint>')
+    speed, _ = figures(rover(SKID, wheel=rubbing))
+
+    assert speed == pytest.approx(1.0, abs=0.03)
 
 
 def test_a_wheel_diameter_that_is_half_doubles_the_speed() -> None:

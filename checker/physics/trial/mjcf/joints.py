@@ -5,6 +5,7 @@ from __future__ import annotations
 from checker.base.record import Record
 from checker.model.components import Axis, Joint
 from checker.model.geometry.transform import Vector
+from checker.model.locomotion.classic import classic_joints
 from checker.model.robot import Robot
 from checker.physics.mass.mechanism import AXES, Freedom, Motion, motions_of
 from checker.physics.trial.mjcf.names import LARGEST, clamp, numbers
@@ -62,7 +63,9 @@ def degrees_of(robot: Robot, joint: Joint, ledger: Ledger) -> tuple[Degree, ...]
     for number in range(AXES.get(type, 0)):
         if number not in moving:
             _say_why_held(joint, number, ledger)
-    return tuple(_degree(joint, motion, ledger) for motion in motions)
+    # A drive plugin of Gazebo Classic replaces friction: both are the joint's motor in ODE.
+    with_friction = joint.name.value not in {*classic_joints(robot.all_plugins)}
+    return tuple(_degree(joint, motion, ledger, with_friction=with_friction) for motion in motions)
 
 
 def _say_why_held(joint: Joint, number: int, ledger: Ledger) -> None:
@@ -81,7 +84,7 @@ def _say_why_held(joint: Joint, number: int, ledger: Ledger) -> None:
         ledger.repair(name, what)
 
 
-def _degree(joint: Joint, motion: Motion, ledger: Ledger) -> Degree:
+def _degree(joint: Joint, motion: Motion, ledger: Ledger, *, with_friction: bool) -> Degree:
     kind = _KINDS[motion.freedom]
     if not joint.axes:
         return Degree(kind, motion.axis)
@@ -94,7 +97,7 @@ def _degree(joint: Joint, motion: Motion, ledger: Ledger) -> Degree:
         motion.axis,
         None if joint.type.value == "continuous" else _range(joint.scoped_name, axis, ledger),
         damping,
-        _resistance(axis.friction.value),
+        _resistance(axis.friction.value) if with_friction else 0.0,
         _resistance(axis.stiffness.value),
         clamp(axis.spring_reference.value, -_ENDLESS, _ENDLESS, 0.0),
     )
