@@ -9,6 +9,7 @@ Fix: put the joint between base_footprint and the next link at the height that t
 Source: REP 120, base_footprint: the projection of the robot on the ground.
 """
 
+from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -26,21 +27,36 @@ def check(robot: Robot, *, metres: float = 0.02) -> Findings:
     link, pose = robot.links_by_name.get(_NAME), robot.pose_of(_NAME)
     if link is None or pose is None or _NAME not in robot.tree.base or robot.locomotion.tracks:
         return
-    boxes = [robot.box_of(it, visuals_too=not it.collisions) for it in robot.wheels]
+    joints = {joint.child.value: joint for joint in robot.joints}
+    wheels = [it for it in robot.wheels if not _is_fixed(joints.get(it.name.value))]
+    boxes = [robot.box_of(it, visuals_too=not it.collisions) for it in wheels]
     known = [box for box in boxes if box is not None]
     if len(known) < max(_LEAST_WHEELS, len(boxes)):
         return
     height = min(box.low[2] for box in known) - pose.translation[2]
     if abs(height) > metres:
-        side = "below" if height < 0 else "above"
+        # A footprint below another link is moved itself; else all that is on it.
+        moved, up = (_NAME, height > 0) if _NAME in joints else ("the links on it", height < 0)
         yield finding(
             link,
-            f"the wheels reach {abs(height):.3g} m {side} base_footprint, which is on the ground: "
-            f"move the links on it {'up' if height < 0 else 'down'} by {abs(height):.3g} m",
+            f"the wheels reach {abs(height):.3g} m {'below' if height < 0 else 'above'} "
+            f"base_footprint, which is on the ground: move {moved} {'up' if up else 'down'} by "
+            f"{abs(height):.3g} m",
         )
 
 
-def _rover(height: float, mark: str = "") -> dict[str, object]:
+def _is_fixed(joint: Joint | None) -> bool:
+    """Return whether a joint holds a caster that only slides."""
+    return joint is not None and joint.type.value == "fixed"
+
+
+_CASTER = """<link name="caster_wheel"><collision><geometry><sphere radius="0.02"/></geometry>
+</collision></link>
+<joint name="caster" type="fixed"><parent link="base_link"/><child link="caster_wheel"/>
+<origin xyz="-0.3 0 -0.2"/></joint>"""
+
+
+def _rover(height: float, mark: str = "", caster: str = "") -> dict[str, object]:
     wheels = "".join(
         f"""<link name="{side}_wheel"><collision>
   <origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.04"/></geometry>
@@ -59,10 +75,10 @@ def _rover(height: float, mark: str = "") -> dict[str, object]:
 <joint name="base_joint" type="fixed">
   <parent link="base_footprint"/><child link="base_link"/><origin xyz="0 0 {height}"/>
 </joint>
-{wheels}</robot>
+{wheels}{caster}</robot>
 """,
     }
 
 
-GOOD = [_rover(0.1), _rover(0.11)]
+GOOD = [_rover(0.1), _rover(0.11), _rover(0.1, caster=_CASTER)]
 BAD = [_rover(0.0, "  <!-- ^ GEO019 -->"), _rover(0.2, "  <!-- ^ GEO019 -->")]
