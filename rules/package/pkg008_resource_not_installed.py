@@ -3,8 +3,9 @@
 The robot starts from the installed packages: a folder or model file that is not installed exists
 only on the author's machine. Of `config/`, `urdf/` and `worlds/` that is a warning, unless what a
 launch file starts by default needs a file there. A folder with launch files of ROS 1 alone in a
-package of ROS 2 is an info. Thumbnails are not needed there: they are infos. So are meshes that no
-file names, such as backups in a folder `meshes/old` of those that are named. A setup.py that
+package of ROS 2 is an info, and so is a `launch/` whose files are all Python without
+`generate_launch_description`. Thumbnails are not needed there: they are infos. So are meshes that
+no file names, such as backups in a folder `meshes/old` of those that are named. A setup.py that
 computes its `data_files` is not checked; if it names each folder, that is only an info.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`; in setup.py, to `data_files`, one entry
@@ -86,8 +87,8 @@ def check(
         if is_left_from_ros1(package, folder):
             message += ": it has only launch files of ROS 1; delete them, or write those of ROS 2"
             severity, fix = Severity.INFO, None
-        elif _is_unnamed(package, folder):
-            message += ", and no file names a mesh of it"
+        elif reason := _needless(package, folder):
+            message += reason
             severity, fix = Severity.INFO, None
         yield _finding(build, message, severity, fix, uses.get(folder))
     model_files = [path for path in MODEL_FILES if package.index.find(path)]
@@ -130,8 +131,8 @@ def _by_setup(package: Package, uses: Mapping[str, NamedPath]) -> Findings:
         if not _covers(origins, folder):
             message = f"folder {folder}/ is not installed: data_files names no file of it"
             severity = None if folder in uses else _LESS.get(folder)
-            if _is_unnamed(package, folder):
-                message += ", and no file names a mesh of it"
+            if reason := _needless(package, folder):
+                message += reason
                 severity = Severity.INFO
             related = _need(uses.get(folder))
             yield finding(setup, message, severity=severity, key=message, related=related)
@@ -159,6 +160,15 @@ def _left_meshes(package: Package, folder: str) -> Iterator[str]:
             yield file.path
 
 
+def _needless(package: Package, folder: str) -> str:
+    """Return why nothing needs a folder, as the end of a sentence; empty if something may."""
+    if _is_unnamed(package, folder):
+        return ", and no file names a mesh of it"
+    if _starts_nothing(package, folder):
+        return ", and no file of it has generate_launch_description"
+    return ""
+
+
 def _is_unnamed(package: Package, folder: str) -> bool:
     """Return whether a folder has only meshes of which no file, of any package, names one."""
     if folder != "meshes":
@@ -169,6 +179,16 @@ def _is_unnamed(package: Package, folder: str) -> bool:
     names |= {posixpath.splitext(name)[1] for name in names}
     every = (package, *package.other_packages)
     return bool(names) and all(names.isdisjoint(it.mentioned_names) for it in every)
+
+
+def _starts_nothing(package: Package, folder: str) -> bool:
+    """Return whether launch/ has only Python files that are not those of a launch."""
+    files = [it.path for it in package.index.files if it.path.startswith(f"{folder}/")]
+    sources = [package.read(path) for path in files if path.endswith(".py")]
+    return (folder == "launch" and len(sources) == len(files)) and all(
+        isinstance(it, SourceText) and "generate_launch_description" not in it.text
+        for it in sources
+    )
 
 
 def _is_unused_copy(package: Package, path: str) -> bool:
