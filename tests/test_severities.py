@@ -462,6 +462,11 @@ CASES: list[tuple[str, Example, str]] = [
     ("SDF001", EMPTY_COPY, "warning"),
     ("SDF001", EMPTY_PART, "warning"),
     ("SDF001", {**EMPTY_PART, "launch/b.launch": "<launch><!-- arm.xacro --></launch>"}, "error"),
+    (
+        "PKG008",
+        {**LEFT, "launch/description.launch": None, "launch/part.py": "GATES = [Node()]"},
+        "info",
+    ),
     ("PKG008", MESHES, "error"),
     ("PKG008", {**MESHES, "urdf/a.urdf": "<mesh filename='other.dae'/>"}, "info"),
     ("PKG008", {**MESHES, "urdf/a.urdf": "<mesh filename='${name}.dae'/>"}, "error"),
@@ -594,6 +599,34 @@ def test_a_stray_model_config_loses_no_model(tmp_path: Path) -> None:
     (tmp_path / "wood.png").write_bytes(b"")
     (report,) = check_package(tmp_path, settings).packages
     assert [str(finding.severity) for finding in report.findings] == ["error"]
+
+
+@pytest.mark.parametrize(
+    ("searched", "uri", "severity"),
+    [
+        ("models", "model://grass", "info"),
+        ("", "model://wood/meshes/a.stl", "info"),
+        ("", "model://wood", "error"),
+        ("worlds", "model://grass", "error"),
+    ],
+)
+def test_a_model_config_that_gazebo_does_not_search(
+    searched: str, uri: str, severity: str, tmp_path: Path
+) -> None:
+    export = f'<gazebo_ros gazebo_model_path="${{prefix}}/{searched}"/>' if searched else ""
+    files = {
+        "package.xml": f"<package><name>park</name><export>{export}</export></package>",
+        "launch/park.launch.py": "",
+        "worlds/park.world": f"<include><uri>{uri}</uri></include>",
+        "worlds/wood/model.config": MADE,
+        "worlds/wood/model.sdf": "<sdf version='1.6'><model name='wood'/></sdf>",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    settings = Settings(profile="gazebo-classic", profile_chosen=True, select=("PKG004",))
+    (report,) = check_package(tmp_path / "worlds/wood", settings).packages
+    assert [str(finding.severity) for finding in report.findings] == [severity]
 
 
 def test_bridges_that_reach_nothing_of_the_robot_are_errors(tmp_path: Path) -> None:

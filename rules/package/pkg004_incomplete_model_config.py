@@ -3,9 +3,10 @@
 Gazebo opens the file that `<sdf>` names; of several, the one with the newest version that it
 supports. If that file does not exist, Gazebo cannot load the robot by its name; if another one is
 missing, or a `.gitignore` keeps it out of the repository, as one that a program writes, it is a
-warning, and so is a model.config alone in its folder, as an editor leaves it. Fuel shows the other
-entries, including the contact of the author: a submission needs them (a warning), for other models
-they are an info.
+warning, and so is a model.config alone in its folder, as an editor leaves it. It is an info in a
+package of ROS where Gazebo does not search the folder above and no file includes the model. Fuel
+shows the other entries, including the contact of the author: a submission needs them (a warning),
+for other models they are an info.
 
 Fix: add what is missing of name, version, author with name and email, description, and
 `<sdf version="…">model.sdf</sdf>` with the version that the model file states.
@@ -23,6 +24,8 @@ from checker.package.git_ignored import ignored_by
 from checker.package.manifests import ModelConfig, Paperwork, SdfEntry
 from checker.package.model_file import own_model
 from checker.package.package import Package
+from checker.package.resource_path import mentions, searched_folders
+from checker.package.target import package_around
 from checker.rule import (
     Concern,
     Context,
@@ -35,10 +38,13 @@ from checker.rule import (
     rule,
     unchecked,
 )
+from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to
 
 _TO_DO = re.compile(r"\s*(?:TODO\b|todo@)")
+_INCLUDED = re.compile(r"""model://([^\s<>"']{1,300})""")
+_INCLUDING = (".sdf", ".world", ".xacro", ".py", ".launch", ".xml", ".sh", ".md", ".cc", ".cpp")
 _NOTHING = Severity.INFO
 """A folder without any model: others may use its meshes."""
 
@@ -103,12 +109,43 @@ def _missing_files(
         harmless = chosen not in (None, entry) or ignored or stray
         if ignored:
             hint = f": {ignored} keeps it out of the repository"
+        severity = Severity.WARNING if harmless else None
         yield finding(
             entry.file,
-            f"model.config names {written or 'no file'}, but this file does not exist{hint}",
-            severity=Severity.WARNING if harmless else None,
+            f"model.config names {written}, but this file does not exist{hint}"
+            if written
+            else f"model.config names no file: <sdf> is empty{hint}",
+            severity=Severity.INFO if not is_subt and _is_unused(package) else severity,
             fix=replace_text(entry.file, meant, Safety.UNSAFE) if meant else None,
         )
+
+
+def _is_unused(package: Package) -> bool:
+    """Return whether Gazebo does not search the folder above a model, and no file includes it."""
+    around = package_around(package)
+    if around is None or not around.exists("package.xml"):
+        return False
+    every = (around, *around.other_packages)
+    searched = [
+        it
+        for each in every
+        for kind in (True, False)
+        for it in searched_folders(each, classic=kind)
+    ]
+    named = (True for each in every for kind in (True, False) for _ in mentions(each, classic=kind))
+    above = package.root.parent.relative_to(around.root).as_posix()
+    share = posixpath.normpath(f"{around.declared_name}/{above}")
+    if any(not it.known or it.folder == share for it in searched) or (not searched and any(named)):
+        return False
+    return package.root.name not in {name for each in every for name in _included_names(each)}
+
+
+def _included_names(package: Package) -> Iterator[str]:
+    """Yield the names of models that files of a package include."""
+    for file in package.index.with_suffix(*_INCLUDING):
+        source = package.read(file.path)
+        found = _INCLUDED.findall(source.text) if isinstance(source, SourceText) else ()
+        yield from (posixpath.basename(it.rstrip("/")) for it in found)
 
 
 def _model_file_fix(package: Package, expected: str) -> Fix | None:
@@ -159,6 +196,12 @@ BAD = [
         ".gitignore": "made.sdf\n",
     },
     {"model.config": f"{_START}<name>Rover</name><sdf>model.sdf</sdf></model>"},
+    {
+        "model.config": f"""<model>{_REST}
+<sdf version="1.6"></sdf>  <!-- ^ PKG004 -->
+</model>
+"""
+    },
     {
         "model.config": f"""<model>{_REST}
 <sdf version="1.6">Model.sdf</sdf>  <!-- ^ PKG004 -->
