@@ -356,6 +356,14 @@ SKIDDING = REAR_GRIP.partition("<plugin")[0] + GRIP.replace(
     "</plugin>", "<left_joint>rear_axle</left_joint></plugin>"
 )
 
+MAP = "image: no.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.6\n"
+MAP += "free_thresh: 0.2\n"
+HALL = """<launch><node pkg="nav2_map_server" exec="map_server">
+<param name="yaml_filename" value="$(find-pkg-share acme_rover_bringup)/maps/hall.yaml"/>
+</node></launch>"""
+SERVED = {"@bridge": True, "launch/map.launch.xml": HALL}
+GOOD_MAP = {"maps/hall.yaml": MAP.replace("no.pgm", "hall.pgm"), "maps/hall.pgm": "P5 1 1 255\n0"}
+
 OF_ROS_1 = '<plugin filename="libgazebo_ros_{}.so" name="p"/>'
 
 CASES: list[tuple[str, Example, str]] = [
@@ -403,6 +411,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("URD015", {"@urdf": SHIFTED.format("0 0 1")}, "error"),
     ("URD015", {"@urdf": LENS.format("fixed")}, "warning"),
     ("URD015", {"@urdf": LENS.format("continuous")}, "error"),
+    ("WIR015", {**SERVED, "maps/hall.yaml": MAP}, "error"),
+    ("WIR015", {**SERVED, **GOOD_MAP, "maps/old/hall.yaml": MAP}, "warning"),
     *(
         ("PLG012", {**CLASSIC_2, "@fragment": OF_ROS_1.format(library)}, severity)
         for library, severity in (("laser", "error"), ("api_plugin", "warning"))

@@ -17,6 +17,7 @@ from checker.base.words import and_list
 from checker.finding import Fix
 from checker.package.containers import container_with
 from checker.package.git_ignored import ignored_by
+from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.package.uris import is_on_one_machine
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
@@ -41,10 +42,17 @@ def check(package: Package) -> Findings:
 
 
 def _is_launched(package: Package, path: str) -> bool:
-    """Return whether a launch file names the map: of this package, or with this package's name."""
-    name = posixpath.basename(path)
+    """Return whether a launch file names the map: of this package, or with this package's name.
+
+    Of several maps of one name it names the folder, too.
+    """
+    folder, name = posixpath.split(path)
+    alike = [it for it in package.index.files if posixpath.basename(it.path) == name]
+    needed = posixpath.basename(folder) if len(alike) > 1 else ""
     return any(
-        name in text and (file.startswith(f"{package.name}/") or package.declared_name in text)
+        name in text
+        and (not needed or has_word(text, needed))
+        and (file.startswith(f"{package.name}/") or package.declared_name in text)
         for file, text in package.workspace.launch_texts.items()
     )
 
