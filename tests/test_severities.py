@@ -412,7 +412,7 @@ CASES: list[tuple[str, Example, str]] = [
     ("URD015", {"@urdf": LENS.format("fixed")}, "warning"),
     ("URD015", {"@urdf": LENS.format("continuous")}, "error"),
     ("WIR015", {**SERVED, "maps/hall.yaml": MAP}, "error"),
-    ("WIR015", {**SERVED, **GOOD_MAP, "maps/old/hall.yaml": MAP}, "warning"),
+    ("WIR015", {**SERVED, **GOOD_MAP, "maps/attic/hall.yaml": MAP}, "warning"),
     *(
         ("PLG012", {**CLASSIC_2, "@fragment": OF_ROS_1.format(library)}, severity)
         for library, severity in (("laser", "error"), ("api_plugin", "warning"))
