@@ -15,9 +15,10 @@ ros-navigation/nav2_minimal_turtlebot_simulation#33.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from checker.launch.ros2.graph import Node
+from checker.model.components import Link
 from checker.model.robot import Robot
 from checker.model.tree import WORLD
 from checker.model.world import World
@@ -50,7 +51,8 @@ def check(wiring: Wiring, *, deepest: float = 0.02) -> Findings:
             continue
         height, span = place
         if reach - height > deepest and (height == 0.0 or _is_flat(simulation)):
-            least = math.ceil((reach + _FREE) * 100.0) / 100.0
+            lowest = max(reach, _reach(spawned.robot, spawned.robot.links) or reach)
+            least = math.ceil((lowest + _FREE) * 100.0) / 100.0
             yield finding(
                 span,
                 f"the wheels of {spawned.robot.name.value!r} start {reach - height:.3g} m in the "
@@ -74,7 +76,12 @@ def _reach_of_wheels(robot: Robot) -> float | None:
     """Return how far wheels reach below the origin of a robot, metres; None if it is not known."""
     if WORLD in robot.tree.links or robot.is_static:
         return None
-    boxes = [robot.box_of(it, visuals_too=False) for it in robot.wheels if it.collisions]
+    return _reach(robot, robot.wheels)
+
+
+def _reach(robot: Robot, links: Iterable[Link]) -> float | None:
+    """Return how far the collisions of links reach below the origin of their robot, metres."""
+    boxes = [robot.box_of(it, visuals_too=False) for it in links if it.collisions]
     known = [-box.low[2] for box in boxes if box is not None]
     return max(known) if known and len(known) == len(boxes) else None
 
