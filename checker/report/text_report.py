@@ -9,6 +9,7 @@ from typing import Any
 
 from checker.base.words import and_list, count, plain, shortened
 from checker.finding import Safety, Severity
+from checker.report.alike import Likeness, first_alike
 from checker.report.concise_report import concise_text
 from checker.report.figures import Row, facts_in_words, rows_of
 from checker.report.finding_text import MESSAGE_LIMIT, finding_text, path_of
@@ -143,6 +144,7 @@ class TextReport:
         self._settings = settings
         self._owners: dict[Identity, str] = {}
         self._told: dict[str, str] = {}
+        self._seen: dict[Likeness, str] = {}
         self._awaited = {posixpath.normpath(path) for path in awaited}
         self._waiting: list[PackageReport] = []
         self._is_first, self._after_line = True, False
@@ -176,7 +178,13 @@ class TextReport:
     def _package_text(self, package: PackageReport) -> str:
         if self._settings.concise:
             return concise_text(package, self._owners, self._settings)
-        text = _package(package, self._owners, self._settings, self._told)
+        folds = not (self._settings.full or self._settings.quiet)
+        first = first_alike(package, self._seen) if folds else ""
+        text = (
+            f"{verdict_text(package, self._settings.palette)}, the same as in {plain(first)}\n"
+            if first
+            else _package(package, self._owners, self._settings, self._told)
+        )
         # Packages of one line follow each other without a gap.
         is_line = text.count("\n") == 1
         gap = "" if self._settings.quiet or (is_line and self._after_line) else "\n"

@@ -412,3 +412,16 @@ def test_an_edit_that_several_robots_bring_is_made_once() -> None:
     edits = tuple(Edit(replace(PLACE, element=name), "1", "0.1") for name in ("scout", "rover"))
     shown = lines(replace(FAULT, fix=Fix(Safety.SAFE, edits)))
     assert "    fix: write `<resolution>1</resolution>`" in shown
+
+
+def test_a_copy_in_the_same_folder_has_one_line() -> None:
+    first, copy = (
+        replace(PACKAGE, name=name, path=f"models/{name}", findings=(FAULT,))
+        for name in ("cone_1", "cone_2")
+    )
+    line = "cone_2: Not ready: 1 error of the interface to fix, the same as in cone_1\n"
+    assert line in text(first, copy)
+    assert line not in text(first, replace(copy, path="others/cone_2"))
+    moved = replace(FAULT, places=(replace(PLACE, line=142),))
+    assert line not in text(first, replace(copy, findings=(moved,)))
+    assert line not in to_text(Report((first, copy), {}), replace(SETTINGS, full=True))
