@@ -69,16 +69,21 @@ def distribution_sign(package: Package) -> DistributionSign | None:
 
 def former_distribution(package: Package) -> str:
     """Return the clause that a package is for a distribution before Humble; else empty."""
-    sign = package.distribution_sign
-    if sign is None or not former_name(package):
+    sign = _sign(package)
+    if sign is None or sign.distro not in _BEFORE_HUMBLE:
         return ""
     return f"{sign.words}, whose packages are not known"
 
 
 def former_name(package: Package) -> str:
     """Return the distribution before Humble that a package is for: `foxy`; else empty."""
-    sign = package.distribution_sign
+    sign = _sign(package)
     return sign.distro if sign is not None and sign.distro in _BEFORE_HUMBLE else ""
+
+
+def _sign(package: Package) -> DistributionSign | None:
+    """Return what names the distribution, also where the simulator alone is detected by others."""
+    return package.distribution_sign or sign_around(package)
 
 
 def sign_of_paths(package: Package) -> DistributionSign | None:
@@ -89,12 +94,12 @@ def sign_of_paths(package: Package) -> DistributionSign | None:
 
 
 def sign_around(package: Package) -> DistributionSign | None:
-    """Return the distribution that scripts and editor settings around a package name in paths.
+    """Return the distribution that scripts and settings in and around a package name in paths.
 
     The nearest folder that names one counts, and only if README, container and CI files around the
     package name no other.
     """
-    for scripts in files_above(package, _SCRIPTS):
+    for scripts in (own_files(package, _SCRIPTS), *files_above(package, _SCRIPTS)):
         if found := [*_found(scripts, _INSTALLED)]:
             others = [*own_files(package, NAMES), *chain(*files_above(package, NAMES))]
             return _only([*found, *_found(others, _NAMED)])

@@ -16,6 +16,7 @@ import re
 from checker.finding import Fix
 from checker.launch.ros2.actions.nodes import OLD_KEYWORDS, meant_keyword
 from checker.launch.ros2.graph import LaunchFaultKind, Ros2Launch
+from checker.package.distribution_sign import former_name
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Span
@@ -27,8 +28,7 @@ _RELEASES = re.compile(r"(?<![a-z])(?:ardent|bouncy|crystal|dashing|eloquent|fox
 @rule("LCH004", "wrong-node-keyword", Severity.ERROR, Concern.INTERFACE)
 def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report nodes without executable, and keywords that were renamed or misspelt."""
-    sign = package.distribution_sign
-    distro = sign.distro if sign is not None else ""
+    distro = former_name(package)
     for graph in launch.entries:
         for fault in graph.faults:
             if fault.kind is LaunchFaultKind.ATTRIBUTE:

@@ -85,6 +85,7 @@ def judged(folder: Path, files: Mapping[str, object], distro: str = "") -> tuple
             ("ros2", "jazzy"),
         ),
         ({"@ros2": True, "../.vscode/settings.json": SETTINGS}, ("ros2", "humble")),
+        ({"@ros2": True, ".vscode/settings.json": SETTINGS}, ("ros2", "humble")),
         ({"@ros2": True, "../install/setup.sh": "P=/opt/ros/iron\n"}, ("ros2", "iron")),
         ({"@ros2": True, "../a.bash": "/opt/ros/iron /opt/ros/humble\n"}, ("ros2", "")),
         ({"@ros2": SPAWN, "../a.sh": ". /opt/ros/jazzy/setup.sh\n"}, ("ros2-classic", "humble")),
