@@ -115,7 +115,7 @@ def _missing_files(
             f"model.config names {written}, but this file does not exist{hint}"
             if written
             else f"model.config names no file: <sdf> is empty{hint}",
-            severity=Severity.INFO if not is_subt and _is_unused(package) else severity,
+            severity=_NOTHING if not (is_subt or stray) and _is_unused(package) else severity,
             fix=replace_text(entry.file, meant, Safety.UNSAFE) if meant else None,
         )
 
