@@ -11,12 +11,11 @@ behind it (`subt_standards.json`).
 """
 
 import math
-from collections.abc import Sequence
 
 from checker.model.breadcrumbs import breadcrumbs
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import Placed, place_shapes, union
-from checker.model.geometry.transform import Vector
+from checker.model.geometry.transform import Vector, dot
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -87,13 +86,7 @@ def _is_inside(robot: Robot, piece: Placed, point: Vector, depth: float) -> bool
     """Return whether a point is inside a shape whose sides are those of robot and shape."""
     own = tuple(piece.pose.rotate(axis) for axis in _AXES)
     sides = (*_SIDES, *own, *((-x, -y, -z) for x, y, z in own))
-    return all(
-        piece.support(robot, side) - _dot(side, point) >= depth - _ROUNDING for side in sides
-    )
-
-
-def _dot(side: Sequence[float], point: Sequence[float]) -> float:
-    return sum(a * b for a, b in zip(side, point, strict=True))
+    return all(piece.support(robot, side) - dot(side, point) >= depth - _ROUNDING for side in sides)
 
 
 def _gap(box: Box | None, point: Vector) -> float | None:

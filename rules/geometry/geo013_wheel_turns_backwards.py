@@ -25,7 +25,7 @@ from checker.base.words import and_list
 from checker.finding import Fix
 from checker.formats.corrections import is_shared, rewrite
 from checker.model.components import Joint
-from checker.model.geometry.transform import Vector
+from checker.model.geometry.transform import Vector, dot
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
 from checker.model.locomotion.undriven import undriven_wheels
 from checker.model.robot import Robot
@@ -97,7 +97,7 @@ def _steering_findings(robot: Robot, drive: WheelDrive, least_cosine: float) -> 
     for joint, side in drive.steering:
         name = joint.name.value
         axis = robot.axis_in_model(joint, joint.axes[0]) if joint.axes else None
-        upwards = 1.0 if axis is None else _dot(axis, _UP)
+        upwards = 1.0 if axis is None else dot(axis, _UP)
         if upwards < least_cosine:
             down = "points down, so it steers to the other side: expected 0 0 1"
             lies = "does not point up, so it tilts its wheel: expected 0 0 1"
@@ -121,10 +121,10 @@ def _steering_findings(robot: Robot, drive: WheelDrive, least_cosine: float) -> 
 def _left_of(drive: WheelDrive, least_cosine: float) -> Vector:
     """Return the direction of left: +y, or the direction of most axes if wheels turn otherwise."""
     axes = [wheel.forward_axis for wheel in drive.wheels if wheel.forward_axis is not None]
-    if not axes or any(abs(_dot(axis, _LEFT)) >= least_cosine for axis in axes):
+    if not axes or any(abs(dot(axis, _LEFT)) >= least_cosine for axis in axes):
         return _LEFT
     first = axes[0]
-    backwards = sum(_dot(axis, first) < 0 for axis in axes)
+    backwards = sum(dot(axis, first) < 0 for axis in axes)
     return first if backwards * 2 <= len(axes) else (-first[0], -first[1], -first[2])
 
 
@@ -132,7 +132,7 @@ def _reversed_axes(
     robot: Robot, drive: WheelDrive, left: Vector, least_cosine: float
 ) -> Iterator[Finding]:
     known = [wheel for wheel in drive.wheels if wheel.forward_axis is not None]
-    wrong = [w for w in known if w.forward_axis and _dot(w.forward_axis, left) <= -least_cosine]
+    wrong = [w for w in known if w.forward_axis and dot(w.forward_axis, left) <= -least_cosine]
     every = len(wrong) == len(known) > 1
     joints: dict[Joint, Wheel] = {wheel.joint: wheel for wheel in wrong}
     for joint in joints:
@@ -168,7 +168,7 @@ def _rolls_forward(drive: WheelDrive, least_cosine: float) -> bool:
     that tag may be what is missing.
     """
     axes = [wheel.forward_axis for wheel in drive.wheels]
-    return not drive.swaps and all(axis and _dot(axis, _LEFT) >= least_cosine for axis in axes)
+    return not drive.swaps and all(axis and dot(axis, _LEFT) >= least_cosine for axis in axes)
 
 
 def _swapped(drive: WheelDrive) -> Iterator[Finding]:
@@ -216,7 +216,7 @@ def _against_its_side(robot: Robot, least_cosine: float, least_share: float) -> 
     nearest = least_share * max(offsets.values(), default=0.0)
     for side in Side:
         along = [
-            (_dot(wheel.axis, _LEFT), wheel)
+            (dot(wheel.axis, _LEFT), wheel)
             for wheel, offset in offsets.items()
             if wheel.side is side and wheel.axis is not None
             if wheel.steering is None and offset > nearest
@@ -225,7 +225,7 @@ def _against_its_side(robot: Robot, least_cosine: float, least_share: float) -> 
         rightward = [wheel for cosine, wheel in along if cosine <= -least_cosine]
         fewer, more = sorted((rightward, leftward), key=len)
         # The axes of three omnidirectional wheels point to the middle, none against another.
-        opposed = [w for w in fewer if w.axis and _dot(w.axis, more[0].axis or _UP) <= _OPPOSED]
+        opposed = [w for w in fewer if w.axis and dot(w.axis, more[0].axis or _UP) <= _OPPOSED]
         for wheel in opposed:
             yield finding(
                 wheel.joint.axes[0].xyz[0],
@@ -266,7 +266,7 @@ def _misnamed_wheels(wheels: Sequence[Wheel]) -> Iterator[Finding]:
 
 
 def _swapped_sides(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Finding]:
-    placed = [(_dot(w.centre, left), w) for w in drive.wheels if w.centre is not None]
+    placed = [(dot(w.centre, left), w) for w in drive.wheels if w.centre is not None]
     if len({wheel.side for _, wheel in placed}) < 2:
         return
     lowest, highest = min(at for at, _ in placed), max(at for at, _ in placed)
@@ -302,10 +302,6 @@ def _axis_text(joint: Joint) -> str:
     xyz = joint.axes[0].xyz
     default = "" if xyz[0].stated else " (the default, as none is stated)"
     return " ".join(f"{number.value:g}" for number in xyz) + default
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
 
 
 def _rover(left: str, right: str, plugin: str = "", steering: str = "") -> str:

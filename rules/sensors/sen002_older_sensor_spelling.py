@@ -31,7 +31,7 @@ _FIRST_GPU_LIDAR = (1, 6)
 
 
 @rule("SEN002", "older-sensor-spelling", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, context: Context, package: Package, spawned: SpawnedFiles) -> Findings:
+def check(robot: Robot, context: Context, package: Package, spawned: SpawnedFiles | None) -> Findings:
     """Report older spellings of lidars, and lidars that the target release does not simulate."""
     if context.release == _CLASSIC or (
         not context.release and sdf_version(robot.document) < _FIRST_GPU_LIDAR
@@ -63,9 +63,9 @@ def check(robot: Robot, context: Context, package: Package, spawned: SpawnedFile
             )
 
 
-def _is_for_classic(robot: Robot, spawned: SpawnedFiles) -> bool:
+def _is_for_classic(robot: Robot, spawned: SpawnedFiles | None) -> bool:
     """Return whether Gazebo Classic gets the robot, and lidars for it are no fault of the robot."""
-    if not spawned.is_in_both(robot):
+    if spawned is None or not spawned.is_in_both(robot):
         return False
     plugins = robot.all_plugins
     alone = plugins and all(classic_plugin(it.filename.value) is not None for it in plugins)

@@ -19,7 +19,7 @@ import math
 from collections.abc import Iterator
 
 from checker.model.components import Sensor
-from checker.model.geometry.transform import Vector
+from checker.model.geometry.transform import dot
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.model.sensing.mounts import mounted_sensors
@@ -51,7 +51,7 @@ def check(robot: Robot) -> Findings:
             if pose is None:
                 continue
             along, above = pose.rotate((1.0, 0.0, 0.0)), pose.rotate((0.0, 0.0, 1.0))
-            if _dot(along, ahead) > _NEAR and _dot(above, up) > _NEAR:
+            if dot(along, ahead) > _NEAR and dot(above, up) > _NEAR:
                 yield finding(
                     frame,
                     f"the point cloud of {mounted.sensor.name.value!r} is turned by 90°: its frame "
@@ -70,10 +70,6 @@ def _frames(sensor: Sensor) -> Iterator[Located[str]]:
             yield stated
         elif stem == _WITH_DEFAULT:
             yield Located(sensor.link, plugin.span, stated=False)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return math.fsum(x * y for x, y in zip(a, b, strict=True))
 
 
 def _camera(frame: str, turn: str = "-1.5708 0 -1.5708", type: str = "depth") -> dict[str, object]:

@@ -14,7 +14,7 @@ Source: REP 103, suffix frames; SDFormat specification, `<camera>`: it looks alo
 
 import math
 
-from checker.model.geometry.transform import Transform, Vector
+from checker.model.geometry.transform import Transform, dot
 from checker.model.robot import Robot
 from checker.model.sensing.mounts import mounted_sensors
 from checker.rule import Concern, Findings, Severity, finding, rule
@@ -42,7 +42,7 @@ def check(robot: Robot) -> Findings:
         pose, parent = robot.pose_of(name), robot.pose_of(joint.parent.value)
         if pose is None or parent is None or looking is None or not _is_optical(pose, parent):
             continue
-        if abs(_dot(looking, pose.rotate(_Z))) < _ACROSS:
+        if abs(dot(looking, pose.rotate(_Z))) < _ACROSS:
             yield finding(
                 mounted.sensor,
                 f"camera {mounted.sensor.name.value!r} looks to the side: it is on {name!r}, whose "
@@ -55,12 +55,8 @@ def check(robot: Robot) -> Findings:
 
 def _is_optical(pose: Transform, parent: Transform) -> bool:
     """Return whether a link has z where its parent has x, and its y axis down."""
-    ahead = _dot(pose.rotate(_Z), parent.rotate(_X)) > _ALONG
-    return ahead and _dot(pose.rotate(_DOWN), parent.rotate(_Z)) > _ALONG
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return math.fsum(x * y for x, y in zip(a, b, strict=True))
+    ahead = dot(pose.rotate(_Z), parent.rotate(_X)) > _ALONG
+    return ahead and dot(pose.rotate(_DOWN), parent.rotate(_Z)) > _ALONG
 
 
 def _camera(turn: str, pose: str = "", mark: str = "") -> dict[str, object]:

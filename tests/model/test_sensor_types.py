@@ -11,14 +11,14 @@ from checker.rulebook.discovery import all_rules
 from tests.model.robots import sdf
 
 RULES = {rule.id: rule for rule in all_rules()}
-NO_PACKAGE = None
-"""A robot of SDF is for one simulator, whatever its package."""
+NO_PACKAGE = NOT_SPAWNED = None
+"""A robot of SDF is for one simulator, whatever its package and its launch files."""
 LIDAR = '<sensor name="scan" type="{}"><ray><range><max>9</max></range></ray></sensor>'
 
 
 def said(rule: str, type: str, release: str, version: str = "1.6") -> list[Finding]:
     robot = sdf(f'<link name="body">{LIDAR.format(type)}</link>', version)
-    rest = (NO_PACKAGE,) if rule == "SEN002" else ()
+    rest = (NO_PACKAGE, NOT_SPAWNED) if rule == "SEN002" else ()
     found = RULES[rule].check(robot, Context(release=release), *rest)
     return [each for each in found if isinstance(each, Finding)]
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import operator
+from collections.abc import Sequence
 from functools import cached_property
 
 from checker.base.record import Record
@@ -11,6 +13,11 @@ Vector = tuple[float, float, float]
 Rotation = tuple[Vector, Vector, Vector]
 
 _IDENTITY: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+def dot(a: Sequence[float], b: Sequence[float]) -> float:
+    """Return the scalar product of two vectors of one length, which may be long."""
+    return math.fsum(map(operator.mul, a, b))
 
 
 def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Rotation:

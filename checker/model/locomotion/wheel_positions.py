@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from checker.base.record import Record
 from checker.model.components import Plugin
 from checker.model.controllers import Controller
-from checker.model.geometry.transform import Vector
+from checker.model.geometry.transform import Vector, dot
 from checker.model.locomotion.locomotion import Side, TrackedDrive, Wheel, WheelDrive
 from checker.model.locomotion.rolling_parts import RollingPart, rolling_parts
 from checker.model.locomotion.wheels import is_misaligned, tread
@@ -74,10 +74,10 @@ def uneven_wheels(robot: Robot, tolerance: float) -> list[Foot]:
 def _feet(robot: Robot, wheels: Sequence[RollingPart]) -> Iterator[Foot]:
     across = _axle(robot)
     forward = (across[1], -across[0], 0.0)
-    sideways = [_dot(part.box.centre, across) for part in wheels]
+    sideways = [dot(part.box.centre, across) for part in wheels]
     left, right = max(sideways, default=0.0), min(sideways, default=0.0)
     for part, at in zip(wheels, sideways, strict=True):
-        along, beside = _dot(part.box.centre, forward), at - (left + right) / 2
+        along, beside = dot(part.box.centre, forward), at - (left + right) / 2
         in_middle = abs(beside) <= _MIDDLE * (left - right)
         side = 0 if in_middle else 1 if beside > 0 else -1
         if abs(along) < FARTHEST:
@@ -130,10 +130,6 @@ def _axle(robot: Robot) -> Vector:
 
 def _askew(robot: Robot, part: RollingPart) -> bool:
     return part.wheel is not None and is_misaligned(robot, part.wheel)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
 
 
 _SHORTEST, _LONGEST = 1e-6, 1e6

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import operator
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from checker.base.record import Record
@@ -12,7 +11,7 @@ from checker.formats.friction import FrictionReader
 from checker.model.components import Collision, Link
 from checker.model.geometry.convex import support
 from checker.model.geometry.shapes import Geometry
-from checker.model.geometry.transform import Transform, Vector
+from checker.model.geometry.transform import Transform, Vector, dot
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.physics.trial.mjcf.names import (
@@ -240,10 +239,6 @@ def _has_volume(points: Points) -> bool:
     return bool(spread[2] > _THIN * spread[0] and spread[0] > _THIN)
 
 
-def _dot(a: Sequence[float], b: Sequence[float]) -> float:
-    return math.fsum(map(operator.mul, a, b))
-
-
 def _is_thick(points: Points) -> bool:
     """State of most bodies that they have a volume, without loading what decides on thin ones.
 
@@ -254,8 +249,8 @@ def _is_thick(points: Points) -> bool:
         [number - mean for number in column]
         for column, mean in zip(zip(*points, strict=True), middle, strict=True)
     )
-    xx, yy, zz = _dot(x, x), _dot(y, y), _dot(z, z)
-    xy, xz, yz = _dot(x, y), _dot(x, z), _dot(y, z)
+    xx, yy, zz = dot(x, x), dot(y, y), dot(z, z)
+    xy, xz, yz = dot(x, y), dot(x, z), dot(y, z)
     trace = xx + yy + zz
     det = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
     least = (_THICK * trace) ** 2 * trace
