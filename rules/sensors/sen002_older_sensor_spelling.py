@@ -31,7 +31,9 @@ _FIRST_GPU_LIDAR = (1, 6)
 
 
 @rule("SEN002", "older-sensor-spelling", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, context: Context, package: Package, spawned: SpawnedFiles | None) -> Findings:
+def check(
+    robot: Robot, context: Context, package: Package, spawned: SpawnedFiles | None
+) -> Findings:
     """Report older spellings of lidars, and lidars that the target release does not simulate."""
     if context.release == _CLASSIC or (
         not context.release and sdf_version(robot.document) < _FIRST_GPU_LIDAR
