@@ -22,38 +22,38 @@ def check(simulations: Simulations) -> Findings:
             for sensor in spawned.robot.sensors
             if sensor.kind is SensorType.NAVSAT
         ]
-        worlds = [it for server in simulation.servers if server.starts for it in server.worlds]
-        for world in worlds if receivers else ():
+        servers = [it for it in simulation.servers if it.starts] if receivers else []
+        for server, world in ((it, world) for it in servers for world in it.worlds):
             if world.element.child("spherical_coordinates") is None:
                 spawned, sensor = receivers[0]
                 yield finding(
-                    world,
+                    server,
                     f"receiver {sensor.name.value!r} gives no positions: world {world.name!r}, "
                     "into which it is spawned, has no <spherical_coordinates>",
                     key=world.name,
-                    related=[(spawned.node, "spawned here"), (sensor, "the receiver")],
+                    related=[
+                        (world, "this world"),
+                        (spawned.node, "spawned here"),
+                        (sensor, "the receiver"),
+                    ],
                 )
 
 
-_GAZEBO = 'launch_arguments=[("gz_args", "-r empty.sdf")]'
-_HALL = 'launch_arguments=[("gz_args", ["-r ", os.path.join(HERE, "worlds", "hall.sdf")])]'
-_WORLD = """<sdf version="1.9">
-  <world name="hall">@
-  </world>
-</sdf>
-"""
+_GAZEBO = 'launch_arguments=[("gz_args", "-r empty.sdf")]),'
+_HALL = 'launch_arguments=[("gz_args", ["-r ", os.path.join(HERE, "worlds", "hall.sdf")])]),'
+_WORLD = '<sdf version="1.9"><world name="hall">{}</world></sdf>'
 _PLACE = "<spherical_coordinates><latitude_deg>48</latitude_deg></spherical_coordinates>"
 
 
-def _hall(content: str, type: str = "navsat") -> dict[str, object]:
+def _hall(content: str, type: str = "navsat", mark: str = "") -> dict[str, object]:
     return {
         "@bridge": True,
-        "@launch": {_GAZEBO: _HALL},
-        "worlds/hall.sdf": _WORLD.replace("@", content),
+        "@launch": {_GAZEBO: f"{_HALL}{mark}"},
+        "worlds/hall.sdf": _WORLD.format(content),
         "urdf/rover.urdf": f"""<robot name="rover"><link name="base_link"/>
   <gazebo reference="base_link"><sensor name="place" type="{type}"/></gazebo></robot>""",
     }
 
 
 GOOD = [_hall(_PLACE), _hall("", "imu")]
-BAD = [_hall("  <!-- ^ WLD014 -->")]
+BAD = [_hall("", mark="  # ^ WLD014")]
