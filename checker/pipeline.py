@@ -25,7 +25,6 @@ from checker.engine.report_cache import memory_key, recall_report, remember
 from checker.finding import Safety
 from checker.package.inputs import Opened, open_input, with_package_path
 from checker.package.package import Package
-from checker.package.vendored import vendored_in
 from checker.report.report import (
     NotOpened,
     PackageReport,
@@ -148,7 +147,7 @@ def tasks_of(
 
 def _order(task: Task) -> tuple[bool, str, bool]:
     """Return a sort key: packages of copied repositories are last."""
-    copied = task.package is not None and bool(vendored_in(task.package))
+    copied = task.package is not None and bool(task.package.vendored_in)
     return copied, task.display_path, bool(task.result)
 
 

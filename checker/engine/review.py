@@ -33,7 +33,6 @@ from checker.engine.unread_robots import unread_robots
 from checker.model.devices.known import known_devices
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.package.vendored import vendored_in
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.report.report import (
     FILES,
@@ -86,7 +85,7 @@ def run_and_set_aside(
     matcher = SuppressionMatcher(subject.package, settings.suppress, every, held)
     unloaded = subject.package.unloaded_files
     unstarted = unstarted_world(subject.package)
-    folder = vendored_in(subject.package)
+    folder = subject.package.vendored_in
     copied = f"in {folder}/, a copied repository that nothing else uses" if folder else ""
     run = partial(run_rules, unstarted=unstarted, copied=copied, allowance=subject.allowance)
     outcome = run(first, subject, judge, matcher, unloaded)
@@ -219,7 +218,7 @@ def _report(
         other_trials=trials[1:],
         target_reason=settings.target_reason,
         neighbours=neighbours_of(package, outcome.findings),
-        vendored=vendored_in(package),
+        vendored=package.vendored_in,
         launched=launched,
     )
 

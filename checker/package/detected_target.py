@@ -9,7 +9,6 @@ from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.base.resources import table
-from checker.package.distribution_sign import sign_around
 from checker.package.gazebo_sign import release_sign
 from checker.package.mentions import has_word
 from checker.package.simulator_signs import (
@@ -64,21 +63,21 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
         return _target_beside(package) or _target_around(package) or _common_target(package) or own
     if len(found) != 1:
         return own
-    (target,) = found.values()
+    ((target, *_),) = found.values()
     # A description with plugins of a later Gazebo is not for Classic, whatever else launches it.
     return own if target.is_classic and {*package.simulator_signs} - {CLASSIC} else target
 
 
 def _targets_of(
     packages: Iterable[Package], distro: str, how: str
-) -> dict[tuple[bool, str], DetectedTarget]:
-    """Return the different targets that the content of packages shows, each with a reason."""
-    found: dict[tuple[bool, str], DetectedTarget] = {}
+) -> dict[tuple[bool, str], list[DetectedTarget]]:
+    """Return the targets that the content of packages shows, each with a reason, alike ones."""
+    found: dict[tuple[bool, str], list[DetectedTarget]] = {}
     for other in packages:
         target = _shown_target(other, distro)
         if target.reason:
-            reason = f"{target.reason} in {other.name}, {how}"
-            found.setdefault((target.is_classic, target.distro), replace(target, reason=reason))
+            told = replace(target, reason=f"{target.reason} in {other.name}, {how}")
+            found.setdefault((target.is_classic, target.distro), []).append(told)
     return found
 
 
@@ -106,7 +105,7 @@ def _target_around(package: Package) -> DetectedTarget | None:
     Distributions after Humble do not have Classic. Fortress, which Humble comes with, has no
     command `gz sim`: a package that runs it there is for Harmonic, installed beside.
     """
-    sign = sign_around(package)
+    sign = package.sign_around
     words = sign.words if sign is not None else classic_beside_later(package)
     if not words:
         return None
@@ -123,10 +122,9 @@ def _common_target(package: Package) -> DetectedTarget | None:
 
     One alone may be of others, and brought along.
     """
-    others = [] if package.only else [*package.other_packages]
-    shown = [it for it in others if _shown_target(it, "").reason]
-    found = _targets_of(shown, "", "beside it")
-    return next(iter(found.values())) if len(shown) > 1 and len(found) == 1 else None
+    found = _targets_of(() if package.only else package.other_packages, "", "beside it")
+    alike = next(iter(found.values())) if len(found) == 1 else []
+    return alike[0] if len(alike) > 1 else None
 
 
 def launching(package: Package) -> Iterator[Package]:

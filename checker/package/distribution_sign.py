@@ -69,21 +69,19 @@ def distribution_sign(package: Package) -> DistributionSign | None:
 
 def former_distribution(package: Package) -> str:
     """Return the clause that a package is for a distribution before Humble; else empty."""
-    sign = _sign(package)
-    if sign is None or sign.distro not in _BEFORE_HUMBLE:
-        return ""
-    return f"{sign.words}, whose packages are not known"
+    sign = _former_sign(package)
+    return f"{sign.words}, whose packages are not known" if sign is not None else ""
 
 
 def former_name(package: Package) -> str:
     """Return the distribution before Humble that a package is for: `foxy`; else empty."""
-    sign = _sign(package)
-    return sign.distro if sign is not None and sign.distro in _BEFORE_HUMBLE else ""
+    sign = _former_sign(package)
+    return sign.distro if sign is not None else ""
 
 
-def _sign(package: Package) -> DistributionSign | None:
-    """Return what names the distribution, also where the simulator alone is detected by others."""
-    return package.distribution_sign or sign_around(package)
+def _former_sign(package: Package) -> DistributionSign | None:
+    sign = package.distribution_sign or package.sign_around
+    return sign if sign is not None and sign.distro in _BEFORE_HUMBLE else None
 
 
 def sign_of_paths(package: Package) -> DistributionSign | None:

@@ -15,7 +15,12 @@ from msgspec.structs import replace
 from checker.base.files import NotReadable, TooLarge
 from checker.base.record import Record
 from checker.finding import Place
-from checker.package.distribution_sign import DistributionSign, distribution_sign, sign_of_paths
+from checker.package.distribution_sign import (
+    DistributionSign,
+    distribution_sign,
+    sign_around,
+    sign_of_paths,
+)
 from checker.package.formats import xml_suffixes
 from checker.package.index import (
     EntryKind,
@@ -48,6 +53,7 @@ from checker.package.references import (
 from checker.package.repository import Units, units_below
 from checker.package.simulator_signs import simulator_signs
 from checker.package.unused_model import unused_model
+from checker.package.vendored import vendored_in
 from checker.package.walk import build_index, entry_at
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.setup_py import SetupFile, read_setup
@@ -212,6 +218,16 @@ class Package(Record, eq=False, dict=True):
     def sign_of_paths(self) -> DistributionSign | None:
         """ROS 2 distribution whose folder its descriptions and scripts name."""
         return sign_of_paths(self)
+
+    @cached_property
+    def sign_around(self) -> DistributionSign | None:
+        """ROS 2 distribution whose folder scripts and settings in and around it name."""
+        return sign_around(self)
+
+    @cached_property
+    def vendored_in(self) -> str:
+        """Folder of the copied repository that it is in; empty for the user's own packages."""
+        return vendored_in(self)
 
     @cached_property
     def build_type(self) -> str | None:

@@ -117,9 +117,9 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
             counts, by_xacro = started.counts, load.by_xacro
             given = (load.args,) if counts and not missing else ()
             candidate = Candidate(
-                path, load.args, counts, by_xacro, missing, *allowed, given, started.spawned
+                *(path, load.args, counts, by_xacro, missing, *allowed, given, started.spawned),
+                misplaced=started.misplaced,
             )
-            candidate = replace(candidate, misplaced=started.misplaced)
             before = chosen.get(path, candidate)
             misplaced = before.misplaced and started.misplaced
             if before.spawned and not started.spawned:

@@ -17,7 +17,7 @@ _UNKNOWN = "unknown macro name: xacro:"
 def is_optional_part(package: Package, path: str, fault: XacroFault) -> bool:
     """Return whether a file that does not expand lacks a macro of another one, and no more.
 
-    All its links hang on a link that it does not have: a robot has a link that nothing holds.
+    A joint connects each of its links, and one leads to a link of another file: a robot has a root.
 
     Args:
         package: The package of the file.
@@ -27,10 +27,10 @@ def is_optional_part(package: Package, path: str, fault: XacroFault) -> bool:
     macro = fault.message.removeprefix(_UNKNOWN)
     if fault.kind is not XacroFaultKind.EXPANSION or macro == fault.message:
         return False
-    return _hangs_outside(package, path) and macro in _macros_beside(package, path)
+    return _needs_a_parent(package, path) and macro in _macros_beside(package, path)
 
 
-def _hangs_outside(package: Package, path: str) -> bool:
+def _needs_a_parent(package: Package, path: str) -> bool:
     document = package.xml(path)
     if not isinstance(document, XmlDocument):
         return False

@@ -36,11 +36,13 @@ def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[Started
         package: The package being checked.
         ros2: What its own launch files of ROS 2 start, if it has any.
     """
-    graphs = sorted(ros2.entries if ros2 is not None else (), key=_spawns_nothing)
+    graphs = sorted(ros2.entries if ros2 is not None else (), key=_spawns, reverse=True)
     own = [(graph, load) for graph in graphs for load in _loaded(package, graph, "")]
     theirs = [
         (graph, load)
-        for other, graph in sorted(launches_naming(package), key=lambda it: _spawns_nothing(it[1]))
+        for other, graph in sorted(
+            launches_naming(package), key=lambda it: _spawns(it[1]), reverse=True
+        )
         for load in _loaded(other, graph, f"../{other.name}/")
     ]
     yield from (load for _, load in own)
@@ -50,8 +52,8 @@ def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[Started
     yield from islice({each.load.path: each for each in others}.values(), TRIED_LIMIT)
 
 
-def _spawns_nothing(graph: LaunchGraph) -> bool:
-    return all(node.executable.value not in SPAWNS for node in graph.nodes_and_spawns)
+def _spawns(graph: LaunchGraph) -> bool:
+    return any(node.executable.value in SPAWNS for node in graph.nodes_and_spawns)
 
 
 def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[StartedLoad]:
@@ -60,8 +62,9 @@ def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[Start
     for described in loaded_descriptions(package, graph):
         missing = dict.fromkeys(described.unknown, f"{folder}{described.node.file}")
         allowed = described.choices, described.offered
-        spawned = not _spawns_nothing(graph)
-        yield StartedLoad(described.load, True, missing, *allowed, spawned, described.misplaced)
+        yield StartedLoad(
+            described.load, True, missing, *allowed, _spawns(graph), described.misplaced
+        )
 
 
 def _of_other_choices(

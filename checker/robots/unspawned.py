@@ -130,20 +130,19 @@ def _is_in_no_started_world(around: Package, texts: Mapping[str, str], name: str
         texts: The texts that may name either, by path, without those of the model.
         name: The name of the model's folder.
     """
-    worlds = [path for path, text in texts.items() if _is_world(path, text)]
-    others = [text for path, text in texts.items() if path not in worlds]
-    if any(map(_SPAWNING.search, others)) or any(map(_COMPUTED.search, others)):
-        return False
+    worlds = {path for path, text in texts.items() if _is_world(path, text)}
     launches = [without_comments(*it) for it in around.launch_texts.items()]
     if not any(_is_started(launches, posixpath.basename(it)) for it in worlds):
         return False
     holding = [path for path, text in texts.items() if _has(path, text, name)]
     pages = [*_pages_above(around)]
-    plain = [without_comments(*it) for it in texts.items() if it[0] not in worlds]
-    starting = [*plain, *pages]
-    return not any(has_word(page, name) for page in pages) and all(
-        path in worlds and not _is_started(starting, posixpath.basename(path)) for path in holding
-    )
+    if not worlds.issuperset(holding) or any(has_word(page, name) for page in pages):
+        return False
+    others = {path: text for path, text in texts.items() if path not in worlds}
+    if any(_SPAWNING.search(it) or _COMPUTED.search(it) for it in others.values()):
+        return False
+    starting = [*(without_comments(*it) for it in others.items()), *pages]
+    return not any(_is_started(starting, posixpath.basename(path)) for path in holding)
 
 
 def _is_world(path: str, text: str) -> bool:
@@ -191,4 +190,4 @@ def _texts(around: Package | None, package: Package, own: str) -> Iterator[tuple
             of_model = holder is around and entry.path.startswith(own)
             source = None if of_model else holder.read(entry.path)
             if isinstance(source, SourceText):
-                yield (holder.root / entry.path).as_posix(), source.text
+                yield f"{holder.root}/{entry.path}", source.text

@@ -9,7 +9,6 @@ Fix: keep the plugin that drives the real robot's wheels, and remove the other o
 Source: gazebo_ros_pkgs, gazebo_ros_planar_move.cpp; gz-sim, VelocityControl.
 """
 
-from checker.model.components import Plugin
 from checker.model.locomotion.body_drive import body_drives
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
@@ -21,14 +20,13 @@ from checker.rulebook.example_parts import ball_wheel
 def check(robot: Robot) -> Findings:
     """Report plugins that move the body on the topic of a drive plugin."""
     for it in body_drives(robot):
-        if isinstance(it.drive.plugin, Plugin):
-            drive = it.drive.plugin.class_name or library_stem(it.drive.plugin.filename.value)
-            yield finding(
-                it.plugin,
-                f"{it.name} sets the velocity of the body on {it.topic!r}, so the wheels that "
-                f"{drive} turns on the same topic do not move the robot: remove one of the two",
-                related=[(it.drive.plugin, "turns the wheels")],
-            )
+        drive = it.wheels.class_name or library_stem(it.wheels.filename.value)
+        yield finding(
+            it.plugin,
+            f"{it.name} sets the velocity of the body on {it.topic!r}, so the wheels that {drive} "
+            "turns on the same topic do not move the robot: remove one of the two",
+            related=[(it.wheels, "turns the wheels")],
+        )
 
 
 def _rover(topic: str, mark: str = "") -> str:

@@ -17,6 +17,7 @@ from collections.abc import Sequence
 
 from checker.base.words import and_list
 from checker.model.components import Joint
+from checker.model.geometry.transform import dot
 from checker.model.robot import Robot
 from checker.ros.spawned import CLASSIC_SPAWNS, SpawnedRobot
 from checker.ros.wiring.wiring import Wiring
@@ -71,10 +72,7 @@ def _cross(robot: Robot, wheels: Sequence[Joint]) -> bool:
     """Return whether two wheels turn on axes that are not parallel, as of an omni-wheel base."""
     found = (robot.axis_in_model(joint, axis) for joint in wheels for axis in joint.axes)
     axes = [axis for axis in found if axis is not None]
-    return any(
-        abs(sum(a * b for a, b in zip(axes[0], other, strict=True))) < _PARALLEL
-        for other in axes[1:]
-    )
+    return any(abs(dot(axes[0], other)) < _PARALLEL for other in axes[1:])
 
 
 def _is_moved(spawned: SpawnedRobot) -> bool:

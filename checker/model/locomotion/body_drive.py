@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.components import Plugin
 from checker.model.locomotion.drive import body_velocity
-from checker.model.locomotion.locomotion import WheelDrive
 from checker.model.robot import Robot
 
 _TOPICS = ("topic", "commandTopic", "topicName")
@@ -22,26 +21,24 @@ class BodyDrive(Record, eq=False):
     Attributes:
         plugin: The plugin.
         name: What it is called.
-        drive: The drive of wheels.
+        wheels: The plugin that turns wheels.
         topic: Their topic.
     """
 
     plugin: Plugin
     name: str
-    drive: WheelDrive
+    wheels: Plugin
     topic: str
 
 
 def body_drives(robot: Robot) -> Iterator[BodyDrive]:
     """Yield the plugins that move a robot as a whole on the topic of a plugin for its wheels."""
-    drives = [it for it in robot.locomotion.wheel_drives if isinstance(it.plugin, Plugin)]
-    for plugin in robot.all_plugins if drives else ():
-        name = body_velocity(plugin)
-        for drive in drives if name else ():
-            topic = _topic(plugin)
-            if isinstance(drive.plugin, Plugin) and _topic(drive.plugin) == topic:
-                yield BodyDrive(plugin, name, drive, topic)
-                break
+    drives = [it.plugin for it in robot.locomotion.wheel_drives]
+    wheels = {_topic(it): it for it in reversed(drives) if isinstance(it, Plugin)}
+    for plugin in robot.all_plugins if wheels else ():
+        name, topic = body_velocity(plugin), _topic(plugin)
+        if name and topic in wheels:
+            yield BodyDrive(plugin, name, wheels[topic], topic)
 
 
 def _topic(plugin: Plugin) -> str:

@@ -63,9 +63,7 @@ def degrees_of(robot: Robot, joint: Joint, ledger: Ledger) -> tuple[Degree, ...]
     for number in range(AXES.get(type, 0)):
         if number not in moving:
             _say_why_held(joint, number, ledger)
-    # A drive plugin of Gazebo Classic replaces friction: both are the joint's motor in ODE.
-    with_friction = joint.name.value not in {*classic_joints(robot.all_plugins)}
-    return tuple(_degree(joint, motion, ledger, with_friction=with_friction) for motion in motions)
+    return tuple(_degree(robot, joint, motion, ledger) for motion in motions)
 
 
 def _say_why_held(joint: Joint, number: int, ledger: Ledger) -> None:
@@ -84,7 +82,7 @@ def _say_why_held(joint: Joint, number: int, ledger: Ledger) -> None:
         ledger.repair(name, what)
 
 
-def _degree(joint: Joint, motion: Motion, ledger: Ledger, *, with_friction: bool) -> Degree:
+def _degree(robot: Robot, joint: Joint, motion: Motion, ledger: Ledger) -> Degree:
     kind = _KINDS[motion.freedom]
     if not joint.axes:
         return Degree(kind, motion.axis)
@@ -97,10 +95,18 @@ def _degree(joint: Joint, motion: Motion, ledger: Ledger, *, with_friction: bool
         motion.axis,
         None if joint.type.value == "continuous" else _range(joint.scoped_name, axis, ledger),
         damping,
-        _resistance(axis.friction.value) if with_friction else 0.0,
+        _friction(robot, joint, axis),
         _resistance(axis.stiffness.value),
         clamp(axis.spring_reference.value, -_ENDLESS, _ENDLESS, 0.0),
     )
+
+
+def _friction(robot: Robot, joint: Joint, axis: Axis) -> float:
+    """Return the friction of a joint; a drive plugin of Classic replaces it, its motor in ODE."""
+    friction = _resistance(axis.friction.value)
+    if not friction or joint.name.value in classic_joints(robot.all_plugins):
+        return 0.0
+    return friction
 
 
 def _range(name: str, axis: Axis, ledger: Ledger) -> tuple[float, float] | None:
