@@ -15,11 +15,10 @@ Source: tf2, `BufferCore::setTransform`; ros_controllers, diff_drive_controller.
 gazebo_ros_diff_drive.cpp.
 """
 
-from checker.base.record import Record
 from checker.launch.ros2.package_launch import is_ros2_only
 from checker.model.components import Plugin
 from checker.model.locomotion.locomotion import WheelDrive
-from checker.model.plugin_library import library_stem
+from checker.model.locomotion.odometry import Odometry, classic_odometry
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
@@ -27,21 +26,6 @@ from checker.source.text import Located
 
 _STATE_PUBLISHER = "robot_state_publisher"
 _CONTROLLER = "diff_drive_controller/DiffDriveController"
-_PLUGIN = "gazebo_ros_diff_drive"
-
-
-class _Odometry(Record, eq=False):
-    """Frames of odometry that a drive publishes to tf.
-
-    Attributes:
-        parent: The odometry frame.
-        child: The frame that it places, where it is stated, else at the drive.
-        switch: What names that frame.
-    """
-
-    parent: str
-    child: Located[str]
-    switch: str
 
 
 @rule("KIN023", "odometry-of-child-frame", Severity.WARNING, Concern.ROBOT)
@@ -50,16 +34,18 @@ def check(robot: Robot, package: Package) -> Findings:
     if is_ros2_only(package) or _STATE_PUBLISHER not in package.workspace.launch_words:
         return
     joints = {joint.child.value: joint for joint in robot.joints}
-    for odometry in filter(None, map(_odometry, robot.locomotion.wheel_drives)):
-        frame = odometry.child.value.strip("/")
+    for drive in robot.locomotion.wheel_drives:
+        odometry = _odometry(drive)
+        frame = odometry.child.value.strip("/") if odometry is not None else ""
         joint = joints.get(frame)
-        if joint is None:
+        if odometry is None or joint is None:
             continue
         parent = joint.parent.value
+        switch = "<robotBaseFrame>" if isinstance(drive.plugin, Plugin) else "base_frame_id"
         cure = (
             f"remove link {parent!r}"
             if parent == odometry.parent
-            else f"name the root of the robot as {odometry.switch}"
+            else f"name the root of the robot as {switch}"
         )
         yield finding(
             odometry.child,
@@ -70,24 +56,16 @@ def check(robot: Robot, package: Package) -> Findings:
         )
 
 
-def _odometry(drive: WheelDrive) -> _Odometry | None:
+def _odometry(drive: WheelDrive) -> Odometry | None:
     source = drive.plugin
     if isinstance(source, Plugin):
-        if library_stem(source.filename.value) != _PLUGIN:
-            return None
-        texts = {it: next(source.at(it), None) for it in ("odometryFrame", "publishOdomTF")}
-        values = {name: it.value.strip() for name, it in texts.items() if it is not None}
-        if values.get("publishOdomTF", "true").lower() not in ("1", "true"):
-            return None
-        usual = Located("base_footprint", source.span, stated=False)
-        child = next(source.at("robotBaseFrame"), usual)
-        return _Odometry(values.get("odometryFrame", "odom").strip("/"), child, "<robotBaseFrame>")
+        return classic_odometry(source)
     if source.type.value != _CONTROLLER or not source.flag("enable_odom_tf", default=True):
         return None
     usual = Located("base_link", source.span, stated=False)
     child = next(iter(source.texts("base_frame_id")), usual)
     parent = next((it.value for it in source.texts("odom_frame_id")), "odom")
-    return _Odometry(parent.strip("/"), child, "base_frame_id")
+    return Odometry(parent.strip("/"), child)
 
 
 _ROBOT = """<robot name="cart">

@@ -24,7 +24,7 @@ from checker.launch.ros1.package_launch import LaunchEntries
 from checker.launch.ros1.substitution import is_known
 from checker.launch.ros2.package_launch import is_ros2_only
 from checker.model.components import Joint
-from checker.model.plugin_library import library_stem
+from checker.model.locomotion.odometry import classic_odometry
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.ros.launched_robots import launched_robot
@@ -35,10 +35,6 @@ _STATIC = "static_transform_publisher"
 _WORDS = {"tf": (9, 10), "tf2_ros": (8, 9)}
 """Words of its command line: a place, three or four numbers, two frames; in tf also a period."""
 _STATE_PUBLISHER = "robot_state_publisher"
-_DRIVES = {"gazebo_ros_diff_drive": "publishOdomTF", "gazebo_ros_planar_move": ""}
-"""Plugins that publish odometry as a transform, with what switches that off."""
-_ENDS = {"odometryFrame": "odom", "robotBaseFrame": "base_footprint"}
-"""What names the frames of a drive plugin, with the defaults."""
 
 
 class _Static(Record, eq=False):
@@ -84,13 +80,9 @@ def _frame(name: str) -> str:
 def _odometry(robot: Robot) -> Iterator[tuple[str, tuple[str, Span]]]:
     """Yield the frames that drive plugins place, each with its parent and the plugin."""
     for plugin in robot.plugins:
-        stem = library_stem(plugin.filename.value)
-        if stem in _DRIVES:
-            texts = {name: next(plugin.at(name), None) for name in (*_ENDS, _DRIVES[stem] or "-")}
-            values = {name: it.value.strip() for name, it in texts.items() if it is not None}
-            if values.get(_DRIVES[stem], "true").lower() in ("1", "true"):
-                parent, child = (_frame(values.get(name, usual)) for name, usual in _ENDS.items())
-                yield child, (parent, plugin.span)
+        odometry = classic_odometry(plugin)
+        if odometry is not None:
+            yield _frame(odometry.child.value), (odometry.parent, plugin.span)
 
 
 def _against_joints(static: _Static, joints: Mapping[str, Joint]) -> Finding | None:
