@@ -9,13 +9,14 @@ from checker.source.text import Located
 
 
 class NamedFiles(Record, eq=False):
-    """Files that a robot names, or a static model of a world.
+    """Files that a robot names, a static model of a world, or the world itself.
 
     Attributes:
         uris: URIs of its meshes and textures; those of material scripts are left out.
         meshes: Those of meshes among them without which it does not work; of scenery, those of
             collisions: Gazebo reports one that is only seen, and runs.
-        includes: URIs of models that it includes and that are not available.
+        includes: URIs of models that it includes, and of files of models that a world only names,
+            where the model is not available.
         unloaded: That no launch file loads it, as a clause, where one loads another; else empty.
     """
 

@@ -165,18 +165,24 @@ def named_files(
     of_robots = (files_of(it, in_world=in_world) for it in known)
     models = () if isinstance(content, NotAvailable) else content.robots
     scenery = (it for it in models if in_world and it.is_static)
-    files = (*of_robots, *(_of_scenery(package, model) for model in scenery))
+    worlds = () if isinstance(content, NotAvailable) else content.worlds
+    files = (
+        *of_robots,
+        *(_of_scenery(package, model) for model in scenery),
+        *(NamedFiles((), frozenset(), it.unknown) for it in worlds if in_world and it.unknown),
+    )
     return robots if isinstance(robots, NotAvailable) and not files else files
 
 
 def _of_scenery(package: Package, model: Robot) -> NamedFiles:
-    """Return the files that a model of a world names.
+    """Return the files that a model of a world names, those of absent models as includes.
 
-    The world may get an absent model from Fuel, or from a folder of the user's: as with includes,
-    nothing is said about its files.
+    The world may get an absent model from Fuel, or from a folder of the user's.
     """
     files = files_of(model, in_world=True)
-    return replace(files, uris=tuple(it for it in files.uris if not _is_of_absent(package, it)))
+    absent = tuple(it for it in files.uris if _is_of_absent(package, it))
+    uris = tuple(it for it in files.uris if it not in absent)
+    return replace(files, uris=uris, includes=(*files.includes, *absent))
 
 
 def _is_of_absent(package: Package, uri: Located[str]) -> bool:

@@ -17,8 +17,8 @@ meshes/ and other usual folders.
 An absolute path such as `/home/me/arm/a.stl` is found on the machine of its author alone.
 
 The models that a world file contains are checked as well. `model://` of a model that is not there
-may be one of Fuel, or of the user's own, and is not checked. Where it ends as one file of the
-package of ROS does, `model://meshes/arm.stl` as `models/meshes/arm.stl`, Gazebo finds it if the
+may be one of Fuel, or of the user's own: it is named as not checked. Where it ends as one file of
+the package of ROS does, `model://meshes/arm.stl` as `models/meshes/arm.stl`, Gazebo finds it if the
 folder above is on its search path: a warning if nothing in the workspace names that path. Where
 several folders have the name of the model, one of them with the file is enough.
 
@@ -62,6 +62,7 @@ from checker.rule import (
     Findings,
     Safety,
     Severity,
+    Unchecked,
     finding,
     replace_text,
     rule,
@@ -70,6 +71,8 @@ from checker.rule import (
 from checker.source.text import Located
 
 _NAMED = re.compile(r"package://([^/]+)/(.+)")
+_MODEL = re.compile(r"model://(?!(?:sun|ground_plane)\b)[^/\s]{1,100}")
+"""An include; Gazebo Classic installs the two models that are left out."""
 _SDF = (".sdf", ".world")
 """Files in which Gazebo finds packages by `model://` alone."""
 
@@ -97,6 +100,9 @@ def check(package: Package, files: NamedFiles, paperwork: Paperwork, context: Co
             yield unchecked(f"{uri.value} is not there until {place} downloads it")
             continue
         yield _missing(package, files, uri, path)
+    models = (_MODEL.match(it.value) for it in files.includes)
+    for name in dict.fromkeys(it[0] for it in models if it):
+        yield Unchecked(f"{name} is not available", Severity.WARNING)
 
 
 def _unreached(package: Package, uri: Located[str], path: str, mesh: bool) -> Iterator[Finding]:

@@ -8,7 +8,7 @@ import pytest
 
 from checker.finding import Severity
 from checker.pipeline import check_package
-from checker.report.report import PackageReport
+from checker.report.report import PackageReport, VerdictKind
 from checker.settings import Settings
 
 _WORLD = """<sdf version="1.7">
@@ -66,9 +66,28 @@ def test_a_mesh_of_scenery_that_is_only_seen_is_no_error(
     assert [it.severity for it in report.findings] == [severity]
 
 
-@pytest.mark.parametrize("uri", ["walls.stl", "model://cafe/meshes/cafe.dae"])
-def test_a_file_that_is_there_or_may_be_of_an_absent_model(tmp_path: Path, uri: str) -> None:
+def test_a_file_that_is_there(tmp_path: Path) -> None:
     (tmp_path / "walls.stl").touch()
-    report = _check(tmp_path, uri)
+    report = _check(tmp_path, "walls.stl")
     assert not report.findings
     assert not report.blind_spots
+
+
+def test_a_file_of_a_model_that_is_not_there_is_not_checked(tmp_path: Path) -> None:
+    report = _check(tmp_path, "model://cafe/meshes/cafe.dae")
+    assert not report.findings
+    assert [it.reason for it in report.blind_spots] == ["model://cafe is not available"]
+    assert report.verdict is VerdictKind.READY
+
+
+@pytest.mark.parametrize(("name", "reasons"), [("sun", 0), ("cafe", 1)])
+def test_a_model_that_a_world_includes_and_that_is_not_there_is_not_checked(
+    tmp_path: Path, name: str, reasons: int
+) -> None:
+    include = f"<include><uri>model://{name}</uri></include>"
+    (tmp_path / "hall.world").write_text(
+        f"<sdf version='1.7'><world name='a'>{include}</world></sdf>"
+    )
+    settings = Settings(select=("REF002",), trial=False)
+    report = check_package(tmp_path / "hall.world", settings).packages[0]
+    assert len(report.blind_spots) == reasons
