@@ -52,11 +52,10 @@ def check(launched: LaunchedControl, package: Package, context: Context) -> Find
     """
     yield from _no_states(launched, package)
     yield from _no_parameters(launched, package, distribution_of(context))
-    in_gazebo = [control for control in launched.controls if control.managers]
-    if not launched.managers and not in_gazebo:
+    if not launched.managers and not launched.in_gazebo:
         yield from _no_manager(launched)
         return
-    files = [it for each in in_gazebo for manager in each.managers for it in manager.files]
+    files = [it for each in launched.in_gazebo for manager in each.managers for it in manager.files]
     # R2C006 reports a file that is not there.
     listed = launched.listed_controllers if all(it.exists for it in files if it.path) else None
     for spawner in launched.spawners if listed is not None else ():
@@ -210,6 +209,27 @@ def _model_spawned(joint: str, plugin: str, mark: str = "") -> object:
     return {**_arm(_STATES, create, spawner), **model_beside(joint, plugin)}
 
 
+def _robot_beside(controller: str, mark: str = "") -> object:
+    """Return an arm whose launch file spawns the arm of another package instead."""
+    model = "get_package_share_directory('acme_arm_tall') + '/arm.urdf'"
+    create = _CREATE.replace("'-name', 'arm'", f"'-file', {model}")
+    robot = f"""<robot name="arm">
+  <link name="base_link"/>
+  <link name="upper_arm"/>
+  <joint name="shoulder" type="continuous">
+    <parent link="base_link"/><child link="upper_arm"/>
+  </joint>
+  {_HARDWARE.replace("@", "gz_ros2_control/GazeboSimSystem")}{_GAZEBO}
+</robot>
+"""
+    return {
+        **_arm(_spawner(controller, mark=mark), create, gazebo=True),
+        "../acme_arm_tall/package.xml": "<package><name>acme_arm_tall</name></package>",
+        "../acme_arm_tall/arm.urdf": robot.replace("acme_arm_description", "acme_arm_tall"),
+        "../acme_arm_tall/config/arm.yaml": (_YAML + _ARM).replace("arm_", "tall_arm_"),
+    }
+
+
 def _in_classic(*nodes: str, more: str) -> object:
     """Return an arm in Gazebo Classic, whose own launch file starts no controller manager."""
     plugin = _GAZEBO.replace("gz_ros2_control-system", "libgazebo_ros2_control.so")
@@ -223,6 +243,7 @@ _MARK = "  # ^ R2C013"
 _INSTALLED = "/home/ann/ws/install/acme_arm_description/share/acme_arm_description"
 _BROADCASTER = f"    joints_out:\n      type: {_STATE_BROADCASTER}{_MARK}\n"
 GOOD = [
+    _robot_beside("tall_arm_controller"),
     _model_spawned("shoulder", gazebo_control("")),
     _arm(_NODE, _spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
     _in_classic(_spawner("arm_controller", "joints_out"), more=_BROADCASTER.replace(_MARK, "")),
@@ -242,6 +263,7 @@ GOOD = [
     _in_gazebo("arm_controler", "/home/ann/arm"),
 ]
 BAD = [
+    _robot_beside("arm_controller", _MARK),
     _model_spawned("shoulder", "", _MARK),
     _in_gazebo("arm_controler", _INSTALLED, _MARK),
     _in_classic(_spawner("arm_controller"), more=_BROADCASTER),

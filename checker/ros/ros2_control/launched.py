@@ -160,6 +160,17 @@ class LaunchedControl(Record, eq=False, dict=True):
         return tuple(filter(_is_manager, self.nodes))
 
     @cached_property
+    def in_gazebo(self) -> tuple[RobotControl, ...]:
+        """Those of the robots whose plugin in Gazebo runs a manager.
+
+        What it spawns may be of another package; what is not known is a robot of this one.
+        """
+        robots, unknown = self.spawned.robots(self.graph, EVERY_SPAWN)
+        spawned = [it.control for it in robots if it.control is not None and it.control.managers]
+        found = self.controls if unknown or not spawned else spawned
+        return tuple(control for control in found if control.managers)
+
+    @cached_property
     def spawns_manager(self) -> bool | None:
         """Whether a plugin of what it spawns runs a controller manager; None if not known."""
         robots, unknown = self.spawned.robots(self.graph, EVERY_SPAWN)
@@ -217,11 +228,10 @@ class LaunchedControl(Record, eq=False, dict=True):
     @cached_property
     def _files(self) -> tuple[ControllerFile, ...] | None:
         """The files that the managers are given."""
-        in_gazebo = [control for control in self.controls if control.managers]
-        named = (file for it in in_gazebo for manager in it.managers for file in manager.files)
+        named = (file for it in self.in_gazebo for plugin in it.managers for file in plugin.files)
         if any(file.path is None for file in named):
             return None
-        files = [file for control in in_gazebo for file in control.files]
+        files = [file for control in self.in_gazebo for file in control.files]
         for node in self.managers:
             if node.unread:
                 return None
@@ -231,7 +241,7 @@ class LaunchedControl(Record, eq=False, dict=True):
                     if read is None:
                         return None
                     files.append(read)
-        if any(control.unread for control in self.controls if control.managers):
+        if any(control.unread for control in self.in_gazebo):
             return None
         return tuple(files)
 
