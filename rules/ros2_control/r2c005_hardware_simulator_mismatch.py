@@ -11,6 +11,7 @@ description that launch files load and never spawn, where they spawn another one
 ros2_control_node, nothing is an error, and hardware of a real robot is right. ros2_control_node
 cannot load hardware of Gazebo: it loads no hardware at all, and no controller starts. What a xacro
 file lacks that other files include and no launch file names may be in these: it is not reported.
+What a macro that is not available may add is not checked.
 
 Fix: write the plugin below `<gazebo>`, with `<parameters>`, and the hardware of the same simulator:
 from Harmonic on `gz_ros2_control-system`, `gz_ros2_control::GazeboSimROS2ControlPlugin` and
@@ -37,7 +38,18 @@ from checker.ros.ros2_control.robot_control import GazeboManager, RobotControl
 from checker.ros.ros2_control.sdf_managers import managed_by_sdf
 from checker.ros.spawned import SpawnedReader
 from checker.ros.spawned_files import SpawnedFiles
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rename, rule
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    Unchecked,
+    finding,
+    rename,
+    rule,
+    unchecked,
+)
 from checker.rulebook.example_parts import GAZEBO, MOCK, model_beside, ros2_control
 
 _CLASSES: Mapping[str, tuple[str, ...]] = {
@@ -88,7 +100,9 @@ def check(
     found = [*_found(control, package, context)]
     clause = spawned.without(control.robot) if found else ""
     for each in found:
-        if not clause:
+        if isinstance(each, Unchecked):
+            yield each
+        elif not clause:
             grave = each.key == _OTHER_HARDWARE and _is_certain(control)
             certain = grave and spawned.is_spawned(control.robot)
             yield replace(each, severity=None) if certain else each
@@ -144,7 +158,7 @@ def _is_certain(control: RobotControl) -> bool:
     )
 
 
-def _found(control: RobotControl, package: Package, context: Context) -> Iterator[Finding]:
+def _found(control: RobotControl, package: Package, context: Context) -> Findings:
     for manager in control.managers:
         yield from _names(manager, context.release)
         yield from _another_library(control, manager)
@@ -188,17 +202,21 @@ def _names(manager: GazeboManager, release: str) -> Iterator[Finding]:
         )
 
 
-def _disagreement(control: RobotControl, package: Package) -> Iterator[Finding]:
+def _disagreement(control: RobotControl, package: Package) -> Findings:
     simulated = _simulated(control, package)
     others = [each for each in control.hardware if each not in simulated and each.plugin.value]
-    if control.managers and not control.hardware:
+    lacks_tag = control.managers and not control.hardware
+    lacks_plugin = simulated and not control.managers and not managed_by_sdf(package, control)
+    if (lacks_tag or lacks_plugin) and control.robot.missing_parts:
+        yield unchecked(control.robot.missing_parts)
+    elif lacks_tag:
         yield finding(
             control.managers[0],
             f"plugin {control.managers[0].plugin.name.value!r} runs a controller manager, but the "
             "robot has no <ros2_control> tag",
             key="no tag",
         )
-    elif simulated and not control.managers and not managed_by_sdf(package, control):
+    elif lacks_plugin:
         missing = _plugin_for(simulated[0].plugin.value)
         yield finding(
             simulated[0].plugin,

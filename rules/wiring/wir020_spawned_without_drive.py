@@ -5,7 +5,8 @@ that are started beside it wait for it. The joints of an arm swing freely, so it
 command reaches them. The description was written for RViz, or for the real robot.
 
 It is reported where the description that a launch file spawns has no plugin outside of its sensors
-and no `<ros2_control>`.
+and no `<ros2_control>`. A macro that is not available may control the joints of an arm: that is not
+checked.
 
 Fix: add what the message names, with `<ros2_control>` the plugin that reads it; and the sensors
 that are needed. Wheels on parallel axes need a diff drive, wheels on crossing axes a planar drive,
@@ -21,7 +22,7 @@ from checker.model.geometry.transform import dot
 from checker.model.robot import Robot
 from checker.ros.spawned import CLASSIC_SPAWNS, SpawnedRobot
 from checker.ros.wiring.wiring import Wiring
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _FEWEST = 2
 """Wheels on joints that turn without end, or joints of an arm."""
@@ -46,6 +47,9 @@ def check(wiring: Wiring) -> Findings:
             names = and_list([repr(it.child) for it in rolling])
             lacks = f"a drive: no plugin and no ros2_control turns {names}"
             advice = _drive(robot, [it.joint for it in rolling], spawned.node.program)
+        elif len(joints) >= _FEWEST and robot.missing_parts:
+            yield unchecked(robot.missing_parts)
+            continue
         elif len(joints) >= _FEWEST:
             some = f"{joints[0]!r} to {joints[-1]!r}"
             lacks = f"control: no plugin and no ros2_control holds its {len(joints)} joints, {some}"
