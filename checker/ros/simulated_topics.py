@@ -95,9 +95,7 @@ def unknown_owner(robot: Robot) -> str:
         name = plugin.class_name
         if plugin.nested_in or (name not in known["plugins"] and not is_silent(plugin)):
             return f"topics of the plugin {plugin.label} are not known"
-    if robot.unresolved_includes:
-        return f"{robot.unresolved_includes[0].value} is not available"
-    return robot.unread_plugins
+    return robot.missing_parts or robot.unread_plugins
 
 
 def is_silent(plugin: Plugin) -> bool:

@@ -148,14 +148,20 @@ class Simulation(Record, eq=False, dict=True):
         return bool(is_known and self.robots and not self.topics_of(entry))
 
     @cached_property
-    def unknown_topics(self) -> str:
-        """Reason why models may have more topics than those that are known; else empty.
+    def unknown_topics(self) -> tuple[str, ...]:
+        """Reasons why models may have more topics than those that are known.
 
         What a world includes may have more, too: see `knows_world`.
         """
-        reasons = [*self.unknown_robots, *self.unknown_worlds]
-        reasons += filter(None, map(unknown_owner, self.models))
-        return next(iter(reasons), "")
+        owners = filter(None, map(unknown_owner, self.models))
+        return (*self.unknown_robots, *self.unknown_worlds, *owners)
+
+    @property
+    def missing_parts(self) -> str:
+        """The only reason why models may have more topics: parts not available; else empty."""
+        reasons = set(self.unknown_topics)
+        is_only = reasons <= {model.missing_parts for model in self.models}
+        return self.unknown_topics[0] if reasons and is_only else ""
 
     @property
     def knows_world(self) -> bool:

@@ -6,9 +6,9 @@ spawning program sets the name of the model.
 
 The rule needs all robots that the launch file spawns. It reports a topic if everything that the
 launch file starts is known, or if the robot has a topic with this message that is not bridged,
-whatever models of the world are not available. Topics in the robot's files that an argument
-switches off are skipped. Where another node publishes joint states or, for a robot without a drive,
-the transforms of the same topic, nothing is missing: it is an info.
+whatever models of the world and parts of the robot are not available. Topics in the robot's files
+that an argument switches off are skipped. Where another node publishes joint states or, for a robot
+without a drive, the transforms of the same topic, nothing is missing: it is an info.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.
@@ -29,7 +29,7 @@ from checker.ros.spawned import SpawnedRobot
 from checker.ros.topics import comparable
 from checker.ros.wiring.joint_states import JOINT_STATE
 from checker.ros.wiring.wiring import Wiring, Wirings
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
@@ -50,18 +50,29 @@ def check(package: Package, simulations: Simulations, wirings: Wirings | None) -
     clock of another world.
     """
     for simulation in simulations.launched:
-        if simulation.unknown_topics:
+        missing = simulation.missing_parts
+        if simulation.unknown_topics and not missing:
             continue
         entries = [it for it in simulation.entries if it.gz_topic and it.counts]
         own = [it for it in entries if not _OF_THE_WORLD.match(it.gz_topic)]
         faults = [(it, fault) for it in own if (fault := _fault(package, simulation, it))]
-        in_vain = len(faults) == len(own) >= _SEVERAL
+        in_vain = len(faults) == len(own) >= _SEVERAL and not missing
+        if missing:
+            certain = [(it, fault) for it, fault in faults if _is_certain(simulation, it)]
+            if len(certain) < len(faults):
+                yield unchecked(missing)
+            faults = certain
         for entry, fault in (*faults, *_of_other_worlds(simulation, entries)):
             is_grave = in_vain or entry.gz_name == _CLOCK
             severity, other = Severity.ERROR if is_grave else None, ""
             if publisher := _given_otherwise(simulation, wirings, entry):
                 severity, other = Severity.INFO, f" ({publisher} in ROS)"
             yield finding(entry.passed.gz_topic, f"{fault}{other}", severity=severity)
+
+
+def _is_certain(simulation: Simulation, entry: BridgeEntry) -> bool:
+    """Return whether what is read of the robots tells what is wrong, whatever is not available."""
+    return bool(simulation.topics_of(entry) or _instead(simulation, entry))
 
 
 def _given_otherwise(simulation: Simulation, wirings: Wirings | None, entry: BridgeEntry) -> str:
@@ -114,7 +125,9 @@ def _fault(package: Package, simulation: Simulation, entry: BridgeEntry) -> str:
     whole = simulation.is_whole and simulation.knows_world
     if not hint and not (simulation.robots and whole):
         return ""
-    return f"no sensor or system in Gazebo has the topic {entry.gz_topic}{hint or _lacking(entry)}"
+    which = "that is available" if simulation.missing_parts else "in Gazebo"
+    rest = hint or _lacking(entry)
+    return f"no sensor or system {which} has the topic {entry.gz_topic}{rest}"
 
 
 def _is_written(package: Package, simulation: Simulation, entry: BridgeEntry) -> bool:

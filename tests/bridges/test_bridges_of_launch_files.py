@@ -132,7 +132,8 @@ def test_an_unknown_plugin_may_publish_anything(tmp_path: Path) -> None:
     plugin = '<gazebo><plugin filename="acme" name="acme::Radar"/></gazebo>'
     robot = f'<robot name="rover"><link name="base_link"/>{plugin}</robot>'
 
-    assert "Radar" in simulation({"urdf/rover.urdf": robot}, tmp_path).unknown_topics
+    (reason,) = simulation({"urdf/rover.urdf": robot}, tmp_path).unknown_topics
+    assert "Radar" in reason
 
 
 def test_a_lidar_on_a_lumped_link_may_be_found_on_either(tmp_path: Path) -> None:
