@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from checker.formats.xacro.files import local_path
-from checker.launch.ros2.descriptions import loaded_descriptions
+from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph, Node, Process
 from checker.launch.ros2.package_launch import launches_naming
 from checker.model.robot import OTHERS_SIMULATED, UNDRIVEN
@@ -30,6 +30,7 @@ _SIMULATED = frozenset({"plugin", "sensor"})
 """Children of a `<gazebo>` that no other program reads."""
 _FOR_RVIZ = re.compile(r"<!--[^<>]{0,300}\bfor rviz\b", re.IGNORECASE)
 SPAWNS = frozenset({"create", "spawn_entity.py", "spawn_entity", "spawn_model"})
+_PUBLISHER = "robot_state_publisher"
 _FROM_ROS = frozenset({"-topic", "-param", "-string"})
 """Options by which a spawner gets what other nodes are given, or what is not known."""
 
@@ -151,9 +152,9 @@ def spawns_others(package: Package, graphs: Iterable[LaunchGraph], path: str) ->
     for graph in graphs:
         if graph.unread or any(_is_unknown(process) for process in graph.processes):
             return False
-        loaded = loaded_descriptions(package, graph)
-        own = {id(each.node): local_path(package, each.load.path) for each in loaded}
-        if any(_may_get(node, own.get(id(node)), path) for node in graph.nodes_and_spawns):
+        loaded = [*loaded_descriptions(package, graph)]
+        spawners = (it for it in graph.nodes_and_spawns if it.executable.value in SPAWNS)
+        if any(_may_get(package, node, loaded, path) for node in spawners):
             return False
     return True
 
@@ -163,11 +164,14 @@ def _is_unknown(process: Process) -> bool:
     return not process.spawns and any(word.value in SPAWNS for word in process.words)
 
 
-def _may_get(node: Node, given: str | None, path: str) -> bool:
-    """Return whether a node spawns a description, or may: nothing else is among its arguments."""
-    if node.executable.value not in SPAWNS:
-        return False
-    if given is not None:
-        return given == path
+def _may_get(package: Package, node: Node, loaded: list[LoadedDescription], path: str) -> bool:
+    """Return whether a spawner gets the description of a file, or may.
+
+    It gets one of its own, or what the same launch file publishes.
+    """
     words = {word.value for word in node.arguments}
+    published = [it for it in loaded if it.node.executable.value == _PUBLISHER]
+    given = [it for it in loaded if it.node is node] or (published if "-topic" in words else [])
+    if given:
+        return any(local_path(package, it.load.path) == path for it in given)
     return not _FROM_ROS.isdisjoint(words) or "-file" not in words

@@ -38,6 +38,9 @@ from checker.rule import (
     rule,
 )
 
+_OF_MODEL = {"static"}
+"""Elements about the whole model; where the link exists, URD028 reports them."""
+
 
 @rule("URD006", "ineffective-gazebo-tag", Severity.ERROR, Concern.ROBOT)
 def check(description: UrdfDescription, package: Package, context: Context) -> Findings:
@@ -63,6 +66,18 @@ def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Findin
         if tag.reference.stated and not known and name in _optional_names(description):
             message = f"<gazebo> refers to {name!r}, which the xacro makes under a condition"
             yield finding(tag.reference, message, severity=Severity.INFO, key=name)
+        elif (
+            tag.reference.stated
+            and not known
+            and {it.tag for it in tag.element.children} == _OF_MODEL
+        ):
+            yield finding(
+                tag.reference,
+                f"<static> has no effect in <gazebo reference={name!r}>: write it in a <gazebo> "
+                "without reference: it is about the whole model",
+                severity=Severity.WARNING,
+                key="static",
+            )
         elif tag.reference.stated and not known:
             found = misspelt(
                 tag.reference,
@@ -172,6 +187,7 @@ GOOD = [
     {"urdf/rviz.urdf": '<robot name="r"><link name="a"/><gazebo reference="b"/></robot>'},
 ]
 BAD = [
+    {"@urdf": f'<gazebo reference="World">{_MARK}\n<static>true</static>\n</gazebo>'},
     {"@urdf": True, "urdf/mast.urdf.xacro": _MAST},
     _macro("toool", _MARK),
     {"@urdf": f'<gazebo reference="uper_arm">{_MARK}\n<mu1>1</mu1>\n</gazebo>'},

@@ -13,6 +13,10 @@ from checker.settings import Settings
 from tests.ros2_launch.conftest import CMAKE, NAME, PACKAGE_XML, python
 
 _SHOWN = '<link name="body"><visual><geometry><box size="1 1 1"/></geometry></visual></link>'
+_SOLID = """<robot name="other"><link name="body"><inertial><mass value="1"/>
+<inertia ixx="0.2" iyy="0.2" izz="0.2" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><geometry><box size="1 1 1"/></geometry></collision></link></robot>
+"""
 _TURNS = """<link name="hand"/><joint name="hand" type="continuous"><parent link="body"/>
 <child link="hand"/></joint>"""
 _PUBLISHER = f"""
@@ -32,6 +36,14 @@ world = IncludeLaunchDescription(PathJoinSubstitution([
 spawner = Node(package='ros_gz_sim', executable='create', arguments=[GIVEN])
 return LaunchDescription([state, world, spawner])
 """
+_TOPIC = _SPAWNED.replace("GIVEN", "'-topic', 'robot_description'")
+_PLANNED = _TOPIC.replace("'box.urdf'", "'other.urdf'").replace(
+    "return LaunchDescription([",
+    """planned = Command(['xacro ', os.path.join(share, 'urdf', 'box.urdf')])
+planner = Node(package='moveit_ros_move_group', executable='move_group',
+    parameters=[{'robot_description': ParameterValue(planned, value_type=str)}])
+return LaunchDescription([planner, """,
+)
 _SDF = "'-file', os.path.join(share, 'models', 'box.sdf')"
 
 
@@ -43,6 +55,8 @@ def _report(tmp_path: Path, launch: str, *, urdf: str = _SHOWN, comment: str = "
         "urdf/box.urdf": f'{comment}<robot name="box">{urdf}</robot>',
         "models/box.sdf": '<sdf version="1.9"><model name="box"><link name="b"/></model></sdf>',
     }
+    if "other.urdf" in launch:
+        files["urdf/other.urdf"] = _SOLID
     for name, text in files.items():
         path = tmp_path / NAME / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -54,7 +68,7 @@ def _report(tmp_path: Path, launch: str, *, urdf: str = _SHOWN, comment: str = "
 
 @pytest.mark.parametrize(
     "launch",
-    [_RVIZ, _CLOCK, _SPAWNED.replace("GIVEN", _SDF)],
+    [_RVIZ, _CLOCK, _PLANNED, _SPAWNED.replace("GIVEN", _SDF)],
 )
 def test_what_no_simulator_gets_needs_no_collision(tmp_path: Path, launch: str) -> None:
     report = _report(tmp_path, launch, urdf=_SHOWN + _TURNS)
@@ -72,8 +86,7 @@ def test_what_is_spawned_needs_it(tmp_path: Path, given: str, severity: Severity
 
 
 def test_a_comment_may_say_what_it_is_for(tmp_path: Path) -> None:
-    launch = _SPAWNED.replace("GIVEN", "'-topic', 'robot_description'")
-    report = _report(tmp_path, launch, comment="<!-- A simple model for RViz. -->")
+    report = _report(tmp_path, _TOPIC, comment="<!-- A simple model for RViz. -->")
     assert report.verdict is VerdictKind.READY
 
 
@@ -97,7 +110,7 @@ _TOP_HEAVY = """<link name="body">
     ("launch", "severity"),
     [
         (_RVIZ, Severity.INFO),
-        (_SPAWNED.replace("GIVEN", "'-topic', 'robot_description'"), Severity.WARNING),
+        (_TOPIC, Severity.WARNING),
     ],
 )
 def test_what_no_simulator_gets_does_not_tip_over(
