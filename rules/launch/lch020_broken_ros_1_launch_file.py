@@ -28,8 +28,8 @@ from checker.launch.ros1.substitution import is_known
 from checker.launch.ros2.package_launch import is_ros2_only
 from checker.package.distribution_sign import ros_1_sign
 from checker.package.installed import GENERATES
-from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.ros.control.controllers import ControlSystem
 from checker.ros.control.system import missing_descriptions, missing_parameter_files
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import SourceText
@@ -59,14 +59,14 @@ _REMOVED = frozenset({("robot_state_publisher", "state_publisher")})
 
 
 @rule("LCH020", "broken-ros-1-launch-file", Severity.ERROR, Concern.INTERFACE)
-def check(package: Package, launch: LaunchEntries) -> Findings:
+def check(package: Package, launch: LaunchEntries, control: ControlSystem | None) -> Findings:
     """Report what stops roslaunch, and nodes whose program an available package does not have."""
     if is_ros2_only(package):
         return
     for fault in launch.graph.faults:
         if fault.kind in _FATAL and not _may_be_given(package, fault):
             yield finding(fault, f"roslaunch stops: {fault.message}", key=fault.message)
-    if package.kind is not PackageKind.URDF_DESCRIPTION:  # CTL008 reports those of a robot
+    if control is None:  # CTL rules report those of a robot that is controlled or spawned
         for entry in launch.entries:
             for missing in chain(
                 missing_descriptions(package, entry.graph),
@@ -191,6 +191,7 @@ def _two(second: str, mark: str = "", around: str = "") -> dict[str, object]:
 _MARK = "  <!-- ^ LCH020 -->"
 _BUILD_OF = "project(acme_arm_description)\n{}(follower src/follower.cpp)\n"
 _ARM = '<arg name="arm" value="1"/>'
+_OWN = "$(find acme_arm_description)"
 _LOAD = "$(find acme_arm_bringup)/urdf/$(arg model).xacro"
 _BRINGUP = {
     "@name": "acme_arm_bringup",
@@ -238,6 +239,17 @@ BAD = [
     _node("wacth.py", _MARK),
     _node("watch", _MARK),
     _node("joint_state_publihser", _MARK, package="joint_state_publisher"),
+    {
+        **_launch(
+            f"""<param name="robot_description" textfile="{_OWN}/urdf/old.urdf"/>{_MARK}
+<param name="tall" command="$(find xacro)/xacro '{_OWN}/urdf/tall.xacro'"/>{_MARK}
+<rosparam file="{_OWN}/config/pid.yaml"/>{_MARK}"""
+        ),
+        "@urdf": "",
+        "config/control.yaml": None,
+        "launch/control.launch": None,
+        "launch/spawn.launch": None,
+    },
     {
         **_launch(
             f"""<arg name="model" default="tall"/>
