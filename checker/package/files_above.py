@@ -1,4 +1,7 @@
-"""README, container, CI and build files: of a package, and at the top of the folders around it."""
+"""README, container, CI and build files: of a package, and at the top of the folders around it.
+
+What stands in an HTML comment of a README is not shown to readers, and is left out.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,8 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from checker.source.text import SourceText
 
 if TYPE_CHECKING:
@@ -17,6 +22,12 @@ if TYPE_CHECKING:
 README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
 """Paths in lower case of README files of a package and above it."""
 _LEVELS = 8
+_FENCE_OR_COMMENT = re.compile(
+    r"^ {0,3}(?P<fence>```|~~~).*?(?:^ {0,3}(?P=fence)|\Z)|<!--.*?-->",
+    re.DOTALL | re.MULTILINE,
+)
+"""A block of code or a comment of Markdown: a `<!--` in a block of code is a part of the code."""
+_NOT_LINE_END = re.compile(r"[^\r\n]")
 _SIZE_LIMIT = 500_000
 _ITEMS = 5_000
 _PLACES = (".", ".devcontainer", ".docker", ".github/workflows", ".vscode", "docker", "install")
@@ -27,7 +38,7 @@ def own_files(package: Package, names: re.Pattern[str]) -> list[SourceText]:
     """Return the files of a package whose paths in lower case `names` finds."""
     paths = (file.path for file in package.index.files if names.search(file.path.lower()))
     read = map(package.read, paths)
-    return [source for source in read if isinstance(source, SourceText)]
+    return [_shown(source) for source in read if isinstance(source, SourceText)]
 
 
 def files_around(package: Package, names: re.Pattern[str]) -> Iterator[SourceText]:
@@ -69,7 +80,20 @@ def _files_of(package: Package, top: Path, names: re.Pattern[str]) -> Iterator[S
             if names.search(path.lower()):
                 read = package.workspace.overlay.read(location, path, _SIZE_LIMIT)
                 if isinstance(read, SourceText):
-                    yield read
+                    yield _shown(read)
+
+
+def _shown(source: SourceText) -> SourceText:
+    """Return a file with blanks for what a reader of a README does not see, else as it is."""
+    last = source.text.rfind("-->")
+    if last < 0 or not README.match(source.file.lower()):
+        return source
+    last += len("-->")
+    shown = _FENCE_OR_COMMENT.sub(
+        lambda found: found[0] if found["fence"] else _NOT_LINE_END.sub(" ", found[0]),
+        source.text[:last],
+    )
+    return replace(source, text=shown + source.text[last:])
 
 
 def _files(folder: Path) -> list[Path]:

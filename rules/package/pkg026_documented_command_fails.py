@@ -6,7 +6,8 @@ the first command that a user tries fails.
 
 A launch file of a package that exists nowhere is reported of a README above several packages that
 names the package only in such commands, where nothing else of the repository brings or uses it:
-neither a submodule, a `.repos` file, a script or a container, nor another package.
+neither a submodule, a `.repos` file, a script or a container, nor another package. What stands in
+an HTML comment is not shown, and does not count.
 
 Fix: write the command with the names that exist; or write where the package comes from.
 Source: ros2launch, `get_share_file_path_from_package`; roslaunch, `resource_exception`.
@@ -130,6 +131,7 @@ def _above(name: str, more: str = "") -> dict[str, object]:
     }
 
 
+_FENCED = "```\nros2 launch acme_arm_bringup robot.launch.py\n```\n"
 _MARK = "  <!-- ^ PKG026 -->"
 GOOD = [
     _above("acme_sim", "The package acme_sim is that of our other repository."),
@@ -141,10 +143,12 @@ GOOD = [
     _readme("ros2 run rviz2 rviz2 -d view.rviz"),
     _readme("ros2 launch acme_arm_moveit_config move_group.launch.py"),
     {**_readme("ros2 launch acme_arm_bringup sim.launch.py"), "launch/sim.launch.py.in": ""},
+    {"@ros2": True, "README.md": f"# Arm\n<!--\n{_FENCED}-->\n"},
 ]
 BAD = [
     {**_above("acme_sim"), "@reported": ["../README.md:1"]},
     _readme(f"ros2 launch acme_arm_bringup robot.launch.py{_MARK}"),
     _readme(f"ros2 launch acme_arm arm.launch.py{_MARK}"),
     _readme(f"ros2 run acme_arm_bringup watch{_MARK}"),
+    {"@ros2": True, "README.md": f"<!-- Arm -->\n{_FENCED}", "@reported": ["README.md:3"]},
 ]
