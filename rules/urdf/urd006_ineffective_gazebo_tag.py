@@ -66,29 +66,28 @@ def _faults(description: UrdfDescription, *, in_gazebo: bool) -> Iterator[Findin
         if tag.reference.stated and not known and name in _optional_names(description):
             message = f"<gazebo> refers to {name!r}, which the xacro makes under a condition"
             yield finding(tag.reference, message, severity=Severity.INFO, key=name)
-        elif (
-            tag.reference.stated
-            and not known
-            and {it.tag for it in tag.element.children} == _OF_MODEL
-        ):
-            yield finding(
-                tag.reference,
-                f"<static> has no effect in <gazebo reference={name!r}>: write it in a <gazebo> "
-                "without reference: it is about the whole model",
-                severity=Severity.WARNING,
-                key="static",
-            )
         elif tag.reference.stated and not known:
-            found = misspelt(
-                tag.reference,
-                f"<gazebo> refers to {name!r}, which is not a link or joint",
-                names,
-                severity=_severity(tag, is_whole=is_whole),
-                key=name,
-            )
-            yield replace(found, fix=found.fix or _with_ending(tag, robot))
+            yield _misnamed(tag, robot, names, is_whole=is_whole)
         else:
             yield from _useless(tag, robot, in_gazebo=in_gazebo)
+
+
+def _misnamed(tag: GazeboTag, robot: Robot, names: Suggestions, *, is_whole: bool) -> Finding:
+    name = tag.reference.value
+    if {child.tag for child in tag.element.children} == _OF_MODEL:
+        message = (
+            f"<static> has no effect in <gazebo reference={name!r}>: it is about the whole model: "
+            "write it in a <gazebo> without reference"
+        )
+        return finding(tag.reference, message, severity=Severity.WARNING, key="static")
+    found = misspelt(
+        tag.reference,
+        f"<gazebo> refers to {name!r}, which is not a link or joint",
+        names,
+        severity=_severity(tag, is_whole=is_whole),
+        key=name,
+    )
+    return replace(found, fix=found.fix or _with_ending(tag, robot))
 
 
 def _severity(tag: GazeboTag, *, is_whole: bool) -> Severity | None:
