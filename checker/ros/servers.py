@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -13,8 +14,10 @@ from checker.formats.sdf.world import read_worlds
 from checker.launch.ros2.graph import (
     CLASSIC_PACKAGE,
     GAZEBO,
+    SHARE,
     Include,
     LaunchGraph,
+    Node,
     Parameter,
     Process,
     is_known,
@@ -23,6 +26,7 @@ from checker.launch.ros2.graph import (
 from checker.launch.ros2.package_files import local_file
 from checker.model.world import World
 from checker.package.package import Package
+from checker.ros.resource_path import resource_path
 from checker.source.text import Located, Span
 from checker.source.xml import XmlDocument
 
@@ -70,14 +74,15 @@ def read_servers(package: Package, graph: LaunchGraph) -> Iterator[GazeboServer]
     """
     for include in graph.includes:
         if is_gazebo_include(include) and include.starts is not False:
-            yield from _included(package, include)
+            yield from _included(package, graph, include)
     for process in graph.processes:
         if is_gazebo(process) and process.starts is not False:
-            yield from _commanded(package, process.words[2:], process.span, process.starts)
+            words, span = process.words[2:], process.span
+            yield from _commanded(package, graph, words, span, process.starts)
     for node in graph.nodes:
         server = node.package.value in GAZEBO and node.executable.value in _SERVERS
         if server and node.starts is not False:
-            yield _server_of_node(package, node.parameters, node.span, node.starts)
+            yield _server_of_node(package, graph, node)
 
 
 def is_gazebo(process: Process) -> bool:
@@ -117,12 +122,12 @@ def _file(include: Include) -> str:
     return found.path.rpartition("/")[2]
 
 
-def _included(package: Package, include: Include) -> Iterator[GazeboServer]:
+def _included(package: Package, graph: LaunchGraph, include: Include) -> Iterator[GazeboServer]:
     if _file(include).startswith(_STARTS_WINDOW):
         return
     words = [*_words(include.arguments)]
     span = next((word.span for word in words if _is_world(word)), include.span)
-    yield from _commanded(package, words, span, include.starts)
+    yield from _commanded(package, graph, words, span, include.starts)
 
 
 def _words(arguments: Mapping[str, Located[str]]) -> Iterator[Located[str]]:
@@ -141,7 +146,11 @@ def _is_world(word: Located[str]) -> bool:
 
 
 def _commanded(
-    package: Package, words: Sequence[Located[str]], span: Span, starts: bool | None
+    package: Package,
+    graph: LaunchGraph,
+    words: Sequence[Located[str]],
+    span: Span,
+    starts: bool | None,
 ) -> Iterator[GazeboServer]:
     """Yield the server of a command line; `-g` starts a window alone."""
     if any(word.value == "-g" for word in words):
@@ -149,27 +158,36 @@ def _commanded(
     named = [word for word in words if _is_world(word)]
     texts = [word.value for word in words]
     engine = texts[texts.index(_ENGINE) + 1] if _ENGINE in texts[:-1] else ""
-    server = _loading(package, named[0].value if named else "", span, starts)
+    server = _loading(package, graph, named[0].value if named else "", span, starts)
     yield replace(server, engine=engine)
 
 
-def _server_of_node(
-    package: Package, parameters: Sequence[object], span: Span, starts: bool | None
-) -> GazeboServer:
+def _server_of_node(package: Package, graph: LaunchGraph, node: Node) -> GazeboServer:
     """Return the server that a node is, by its parameters."""
-    files = [it for it in parameters if isinstance(it, Parameter) and it.name == _WORLD_FILE]
-    last = files[-1] if files else None
+    given = [it for it in node.parameters if isinstance(it, Parameter) and it.name == _WORLD_FILE]
+    last = given[-1] if given else None
     if last is None or not isinstance(last.value, str):
-        return GazeboServer(span, starts, unknown=_UNKNOWN)
-    return _loading(package, last.value, last.span, starts)
+        return GazeboServer(node.span, node.starts, unknown=_UNKNOWN)
+    return _loading(package, graph, last.value, last.span, node.starts)
 
 
-def _loading(package: Package, path: str, span: Span, starts: bool | None) -> GazeboServer:
+def _loading(
+    package: Package, graph: LaunchGraph, path: str, span: Span, starts: bool | None
+) -> GazeboServer:
     if path == _EMPTY:
         return GazeboServer(span, starts, own_world=path)
-    local = local_file(package, path) if is_known(path) else None
+    local = _found(package, graph, path) if path and is_known(path) else None
     document = package.xml(local) if local is not None else None
     if not isinstance(document, XmlDocument):
         return GazeboServer(span, starts, unknown=_UNKNOWN)
     worlds = tuple(read_worlds(document, ModelIncludes(package)))
     return GazeboServer(span, starts, worlds)
+
+
+def _found(package: Package, graph: LaunchGraph, path: str) -> str | None:
+    """Return a world as the package lists it: at its path, or below the resource path."""
+    if posixpath.isabs(path):
+        return local_file(package, path)
+    folders = (it.folder for it in resource_path(package, graph).folders if it.folder)
+    found = (local_file(package, posixpath.join(SHARE, folder, path)) for folder in folders)
+    return next(filter(None, found), None)

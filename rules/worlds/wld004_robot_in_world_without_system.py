@@ -146,13 +146,19 @@ def _example(world: str, mark: str = "", gazebo: str = _WORLD) -> dict[str, obje
     return {"@bridge": True, "@launch": {old: new}, "worlds/hall.sdf": world}
 
 
-def _with_configuration(example: dict[str, object]) -> dict[str, object]:
-    """Return the example with systems of the user's own for worlds that name none."""
+def _with_variable(example: dict[str, object], name: str, value: str) -> dict[str, object]:
+    """Return the example with a variable of Gazebo's that its launch file sets."""
     start, imported = "LaunchDescription([\n", "from launch.actions import "
-    variable = f'SetEnvironmentVariable("{_CONFIGURATIONS[0]}", HERE),\n'
+    variable = f'SetEnvironmentVariable("{name}", {value}),\n'
     changes = {start: start + variable, imported: f"{imported}SetEnvironmentVariable, "}
     launch = example["@launch"]
     return {**example, "@launch": {**launch, **changes}} if isinstance(launch, dict) else example
+
+
+def _by_name(world: str, folder: str, mark: str = "") -> dict[str, object]:
+    """Return the example with a world that Gazebo finds by its name below the resource path."""
+    example = _example(world, mark, gazebo='("gz_args", "-r hall.sdf")')
+    return _with_variable(example, "GZ_SIM_RESOURCE_PATH", f'os.path.join(HERE, "{folder}")')
 
 
 _MARK = "  # ^ WLD004"
@@ -161,7 +167,8 @@ GOOD = [
     _example(_hall(*_ALL)),
     _example(_hall(), gazebo='("gz_args", "-g")'),
     _example(_hall("physics"), gazebo='("gz_args", "-r somewhere.sdf")'),
-    _with_configuration(_example(_hall())),
+    _with_variable(_example(_hall()), _CONFIGURATIONS[0], "HERE"),
+    _by_name(_hall("physics"), "models"),
 ]
 BAD = [
     _example(_hall("physics", "user-commands"), _MARK),
@@ -169,4 +176,5 @@ BAD = [
     _example(_hall("user-commands", "sensors"), _MARK),
     _example('<sdf version="1.9"><world name="hall"/></sdf>', _MARK),
     _example(_hall(), _MARK, gazebo=_EMPTY_WORLD),
+    _by_name(_hall("physics", "user-commands"), "worlds", _MARK),
 ]
