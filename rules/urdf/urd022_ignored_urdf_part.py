@@ -1,10 +1,10 @@
 """An element in a robot, link or joint of a URDF that no reader reads there.
 
-URDF readers ignore what they do not know, without a message. `<surface>` and `<mu1>` in a link give
-it no friction, a `<plugin>` outside of `<gazebo>` is not loaded, nor is a `<gazebo>` in a link, a
-`<collision>` inside a `<visual>` touches nothing, and `<joint_properties>` adds no damping. A
-`<geometry>` has one shape: urdfdom takes its first, MuJoCo a box before a mesh. Elements that only
-other programs read, such as `<contact>` of Bullet, are not reported.
+URDF readers ignore what they do not know, without a message. `<surface>`, `<mu>` and `<mu1>` in a
+link give it no friction, a `<plugin>` outside of `<gazebo>` is not loaded, nor is a `<gazebo>` in a
+link, a `<collision>` inside a `<visual>` touches nothing, and `<joint_properties>` adds no damping.
+A `<geometry>` has one shape: urdfdom takes its first, MuJoCo a box before a mesh. Elements that
+only other programs read, such as `<contact>` of Bullet, are not reported.
 
 Fix: write the element where the message says.
 Source: urdfdom, link.cpp and joint.cpp; MuJoCo, xml_urdf.cc; sdformat's parser_urdf.cc, which takes
@@ -56,6 +56,7 @@ GOOD = [
 ]
 BAD = [
     _lamp(_BOX.replace("@", f"<surface><friction/></surface>{_MARK}\n")),
+    _lamp(f"<mu>0</mu>{_MARK}"),
     _lamp(f"<mu1>1</mu1>{_MARK}\n<pose>0 0 1 0 0 0</pose>{_MARK}"),
     _lamp(f'<origin xyz="0 0 1"/>{_MARK}\n<sensor name="c" type="camera"/>{_MARK}'),
     _lamp(f"<gazebo><mu1>1</mu1></gazebo>{_MARK}"),
