@@ -255,6 +255,7 @@ HINGE = """
 <link name="hinge"/>
 <joint name="hinge" type="fixed"><parent>base_link</parent><child>hinge</child></joint>
 """
+SUN = '<light name="lamp" type="sun"/>'
 UNCOLOURED = """
 <visual name="v">
   <geometry><sphere><radius>1</radius></sphere></geometry>
@@ -549,6 +550,7 @@ def test_severity_depends_on_the_case(
     [
         ("SDF009", HINGE, "info", "warning"),
         ("SDF005", UNCOLOURED, "warning", "error"),
+        ("SDF006", SUN, "warning", "error"),
         ("INE002", COARSE, "warning", "error"),
     ],
 )

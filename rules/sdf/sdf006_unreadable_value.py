@@ -7,7 +7,8 @@ pose may not have any, but may have a comma behind a number: a warning, because 
 has none. This rule also checks numbers that the specification limits (a stddev below 0), as the
 newest version that the target reads has them, and words that it lists (the type of a light). Gazebo
 Classic limits no numbers: it takes a `mu` of -1 as no limit of the friction. It reads older files
-that state one number as the `<sim_time>` of a saved `<state>`: a warning there.
+that state one number as the `<sim_time>` of a saved `<state>`: a warning there. So is the type of a
+light, which it reads as a text: the world loads, and only that light differs.
 
 Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
 them.
@@ -70,7 +71,9 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         above = element.parent.tag if element.parent is not None else ""
         choice = words["elements"].get(f"{above}/{element.tag}")
         yield from _word(element.text, f"<{element.tag}>", choice)
-        yield from _attributes(element, attributes, words["attributes"])
+        is_light = context.release == "classic" and element.tag == "light"
+        for found in _attributes(element, attributes, words["attributes"]):
+            yield replace(found, severity=Severity.WARNING) if is_light else found
 
 
 def _attribute_types(element: Element, kind: ElementType, context: Context) -> _Attributes:
@@ -177,6 +180,11 @@ _SAVED = """
 </state>
 </world></sdf>
 """
+_SUN = """
+<sdf version="1.6"><world name="hall">
+<light name="lamp" type="sun"/>  <!-- ^ SDF006 -->
+</world></sdf>
+"""
 GOOD = [
     _depth("3</far>"),
     _inertial("1.01e2</mass>"),
@@ -186,6 +194,7 @@ GOOD = [
 ]
 BAD = [
     {"@profile": "gazebo-classic", "@fragment": _SAVED.replace("@", "  <!-- ^ SDF006 -->")},
+    {"@profile": "gazebo-classic", "@fragment": _SUN},
     _depth("-1</far>  <!-- ^ SDF006 -->"),
     _inertial("1.O1e2</mass>  <!-- ^ SDF006 -->"),
     _inertial("nan</mass>  <!-- ^ SDF006 -->"),
