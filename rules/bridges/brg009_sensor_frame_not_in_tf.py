@@ -70,13 +70,12 @@ def _unstated(
     texts = package.workspace.launch_texts.values()
     if spawned.publisher is None or any(f"/{sensor.name.value}" in text for text in texts):
         return
-    model = spawned.name or "<model>"
     tag, frame = frame_elements(context.release)[0], _frame(sensor, spawned.robot)
     yield finding(
         sensor,
         f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
-        f"the frame {model}/<link>/{sensor.name.value}, which no transform "
-        f"names; expected <{tag}>{frame}",
+        f"a frame that ends in /{sensor.name.value}, which no transform names; expected "
+        f"<{tag}>{frame}",
         fix=_stated(sensor, f"<{tag}>{frame}</{tag}>", frame),
     )
 

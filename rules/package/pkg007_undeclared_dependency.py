@@ -90,6 +90,8 @@ _DESKTOP = (
 )
 _PERCEPTION = rf"{_ROS_BASE}|laser_filters|laser_geometry|cv_bridge|image_geometry"
 _PACKAGES_OF_PACKAGES = {
+    "rclcpp": "(?:builtin|rcl)_interfaces|(?:rosgraph|statistics)_msgs",
+    "rclpy": "(?:builtin|rcl)_interfaces|(?:action|rosgraph|unique_identifier)_msgs",
     "ros_core": _ROS_CORE,
     "ros_base": _ROS_BASE,
     "desktop": _DESKTOP,
@@ -110,7 +112,7 @@ _PACKAGES_OF_PACKAGES = {
     "vision_opencv": "cv_bridge|image_geometry",
     "joint_state_publisher_gui": "joint_state_publisher",
 }
-"""Packages of packages, and the names of what each depends on."""
+"""Packages of packages and client libraries, and the names of what each depends on."""
 
 
 @rule("PKG007", "undeclared-dependency", Severity.WARNING, Concern.PAPERWORK)
@@ -504,6 +506,11 @@ GOOD = [
     },
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz_bridge", "ros_gz_sim")},
     {"@ros2": _BRIDGE, "package.xml": _arm("ros_gz")},
+    {
+        "@ros2": _BRIDGE,
+        "package.xml": _arm("ros_gz", "rclpy"),
+        "acme_arm_bringup/log.py": "from rcl_interfaces.msg import Log\n",
+    },
     {
         "@name": "ros_gz_bringup",
         "@urdf": True,
