@@ -1,6 +1,7 @@
 """Files that hold a part of a robot, such as a sensor, and that no robot includes at present.
 
-Such a file calls macros of the file that the robot includes before it, so it does not expand alone.
+Such a file needs macros or properties of what the robot includes before it, so it does not expand
+alone.
 """
 
 from __future__ import annotations
@@ -15,9 +16,10 @@ _UNKNOWN = "unknown macro name: xacro:"
 
 
 def is_optional_part(package: Package, path: str, fault: XacroFault) -> bool:
-    """Return whether a file that does not expand lacks a macro of another one, and no more.
+    """Return whether a file that does not expand lacks a part of another one, and no more.
 
-    A joint connects each of its links, and one leads to a link of another file: a robot has a root.
+    Without links it cannot be a robot. Else it lacks a macro of another file, a joint connects each
+    of its links, and one leads to a link of another file: a robot has a root.
 
     Args:
         package: The package of the file.
@@ -25,9 +27,20 @@ def is_optional_part(package: Package, path: str, fault: XacroFault) -> bool:
         fault: Why it does not expand.
     """
     macro = fault.message.removeprefix(_UNKNOWN)
-    if fault.kind is not XacroFaultKind.EXPANSION or macro == fault.message:
+    if fault.kind is not XacroFaultKind.EXPANSION:
         return False
+    if macro == fault.message:
+        return _has_no_link(package, path)
     return _needs_a_parent(package, path) and macro in _macros_beside(package, path)
+
+
+def _has_no_link(package: Package, path: str) -> bool:
+    """Return whether a file has no links, neither in a macro nor by what it includes."""
+    document = package.xml(path)
+    tags = ("link", "xacro:include", "include")
+    return isinstance(document, XmlDocument) and not any(
+        element.tag in tags for element in document.elements
+    )
 
 
 def _needs_a_parent(package: Package, path: str) -> bool:

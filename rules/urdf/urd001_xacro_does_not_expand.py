@@ -3,7 +3,8 @@
 The launch file that loads it ends with an error, or loads a robot whose names still contain xacro
 expressions. Files that contain only macros are not reported, nor files that only need an argument
 at launch: one without a default, or with an empty default that makes the expansion fail. A part of
-a robot that no file includes at present, and that calls a macro of another file, is not read.
+a robot that no file includes at present, and that has no link or calls a macro of another file, is
+not read.
 Further values that the file or a launch file names for an argument are tried too. Braces without a
 dollar sign in a `<transmission>` are an info in ROS 2, which does not read it; in a `<gazebo>` that
 only changes how a link looks they are a warning. A tag of xacro in a file that xacro made, and that

@@ -85,8 +85,12 @@ def with_camera(camera: str) -> dict[str, str]:
     }
 
 
-def test_a_part_that_no_robot_includes_is_no_robot(describe: Describe) -> None:
-    files = describe(with_camera(_CAMERA)).one(UrdfFiles)
+_DRIVE = "<gazebo><plugin name='p' filename='f'><radius>${wheel_radius}</radius></plugin></gazebo>"
+
+
+@pytest.mark.parametrize("part", [_CAMERA, _DRIVE])
+def test_a_part_that_no_robot_includes_is_no_robot(part: str, describe: Describe) -> None:
+    files = describe(with_camera(part)).one(UrdfFiles)
     assert not files.faults
     assert files.unused == ("urdf/camera.xacro is not read: no file of a robot includes it",)
 
