@@ -1,7 +1,8 @@
 """The names of a package do not agree.
 
-The name of a package is the one in package.xml: catkin and ament find it by that name, and stop if
-`project()` in CMakeLists.txt has another one. The folder may have any name, such as that of an
+The name of a package is the one in package.xml: catkin and ament find it by that name.
+`ament_package()` and `catkin_package()` stop if `project()` in CMakeLists.txt has another one: the
+package does not build. The folder may have any name, such as that of an
 archive from GitHub (`rover-master`). Only if the folder has the name of a submission to the
 challenge (`acme_rover_sensor_config_1`), all names must be equal to it: the SubT launcher builds
 the name from it. The names in model.config and `<model name>` are only displayed; a name in plain
@@ -21,8 +22,12 @@ from checker.package.package import Package
 from checker.package.renaming import package_renamed
 from checker.package.submissions import NAME, configuration_number, stated_number
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.source.cmake import AUTO_PACKAGE, CMakeFile
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
+
+_COMPARING = (AUTO_PACKAGE, "ament_package", "catkin_package")
+"""Commands that stop if the name of the project is not that of the package."""
 
 
 @rule("PKG002", "names-disagree", Severity.ERROR, Concern.PAPERWORK)
@@ -39,12 +44,23 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     if manifest is not None:
         yield from _compare(package, manifest.name, name, "package.xml names the package", said)
     if build is not None and build.project is not None:
-        yield from _compare(package, build.project, name, "CMakeLists.txt names the project", said)
+        stops = "" if context.is_subt else _refusal(build)
+        if context.is_subt or stops:
+            saying = "CMakeLists.txt names the project"
+            yield from _compare(package, build.project, name, saying, said + stops)
     if not package.is_urdf:
         shown = paperwork.config.name if paperwork.config is not None else None
         if shown is not None:
             yield from _shown_name(shown, name)
         yield from _model_name(package, name, shown.value if shown is not None else name)
+
+
+def _refusal(build: CMakeFile) -> str:
+    """Return what the build does if its project is not called like the package."""
+    if build.project is None or "$" in build.project.value:
+        return ""
+    call = next(build.calls_of(*_COMPARING), None)
+    return f": {call.name}() stops the build" if call is not None else ""
 
 
 def _compare(
@@ -106,6 +122,9 @@ _BUILD = f"project({_ROVER})\n"
 GOOD = [
     {"model.config": "<model><name>Acme Rover</name><sdf>model.sdf</sdf></model>"},
     {"model.config": "<model><name>Acme X2 Sensor Config 1</name><sdf>model.sdf</sdf></model>"},
+    # A project of plain CMake may have any name.
+    {"@ros2": True, "@profile": "ros2", "CMakeLists.txt": "project(arm_tools)\n"},
+    {"@ros2": True, "@profile": "ros2", "CMakeLists.txt": "project(${NAME})\nament_package()\n"},
     {
         "@name": f"{_ROVER} (1)",
         "package.xml": f"<package><name>{_ROVER}</name></package>\n",
@@ -135,8 +154,18 @@ BAD = [
     {
         "@name": "rover-master",
         "package.xml": "<package><name>acme_rover</name></package>\n",
-        "CMakeLists.txt": "project(rover-master)  # ^ PKG002\n",
+        "CMakeLists.txt": "project(rover-master)  # ^ PKG002\ncatkin_package()\n",
         "model.config": None,
         "model.sdf": '<sdf version="1.6"><model name="acme_rover"/></sdf>\n',
+    },
+    {
+        "@ros2": True,
+        "@profile": "ros2",
+        "CMakeLists.txt": "project(arm_tools)  # ^ PKG002\nament_package()\n",
+    },
+    {
+        "@urdf": True,
+        "@profile": "urdf",
+        "CMakeLists.txt": "project(arm_tools)  # ^ PKG002\ncatkin_package()\n",
     },
 ]
