@@ -172,10 +172,11 @@ def foreign_installs(package: Package) -> str:
 def installed_items(build: CMakeFile) -> Iterator[tuple[str, str]]:
     """Yield where files and folders go, below the installed package, and where they come from."""
     for install in build.installs:
-        yield from _items(install)
+        yield from items_of(install)
 
 
-def _items(install: Install) -> Iterator[tuple[str, str]]:
+def items_of(install: Install) -> Iterator[tuple[str, str]]:
+    """Yield the same of one `install()`."""
     if install.kind not in ("DIRECTORY", "FILES", "PROGRAMS") or not install.destination.startswith(
         _SHARE
     ):

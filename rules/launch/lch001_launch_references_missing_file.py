@@ -4,8 +4,9 @@ An included file is not started; a node that gets the path ends, or runs without
 name of an included file is written in full, `robot.launch.py` and not `robot`. The parts of a list,
 as in `[share, 'worlds/a.world']`, are joined without a `/`. Worlds and parameters in packages that
 are not available are not checked, nor is what a setup.py that computes its `data_files` may
-install; files that the build generates are not checked, nor those that a node writes by the name of
-its parameter: `output_file`. Launch skips a parameter file whose path is empty.
+install, or a CMakeLists.txt from outside of its package; files that the build generates are not
+checked, nor those that a node writes by the name of its parameter: `output_file`. Launch skips a
+parameter file whose path is empty.
 MoveItConfigsBuilder stops without the SRDF, kinematics.yaml and joint_limits.yaml. Where a
 condition leaves the action out, for files that only RViz shows or that `.gitignore` excludes, for
 files of a node that has a parameter about saving, and for paths passed to a launch file that is not
@@ -78,10 +79,8 @@ def check(launch: Ros2Launch, package: Package, paperwork: Paperwork) -> Finding
                 yield unchecked(f"{named.path} is not read: {why}")
             elif not is_missing(package, named.path):
                 continue
-            elif may_be_installed(package, named.path):
-                yield unchecked(
-                    f"{named.path} may be installed: data_files of setup.py is computed"
-                )
+            elif why := may_be_installed(package, named.path):
+                yield unchecked(f"{named.path} may be installed: {why}")
             else:
                 what = "the included file" if named.include else "the file"
                 found = lies_elsewhere(package, named.path)

@@ -19,11 +19,22 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from checker.package.files_above import README, files_above, own_files
+from checker.package.installed_from_outside import is_from_outside, may_be_from_outside
 from checker.package.nowhere import is_nowhere
 from checker.package.package import Package
 from checker.package.programs import why_no_program
 from checker.package.released import distributions_with
-from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
 from checker.source.text import SourceText, Span
 
 _COMMAND = re.compile(
@@ -55,14 +66,17 @@ def check(package: Package) -> Findings:
                 yield from _of_no_package(source, every)
 
 
-def _launches(source: SourceText, packages: Sequence[Package]) -> Iterator[Finding]:
+def _launches(source: SourceText, packages: Sequence[Package]) -> Findings:
     for command in _COMMAND.finditer(source.text):
         name, file = (Span(source, *command.span(group)) for group in (1, 2))
         named = [it for it in packages if it.declared_name == name.text]
         of_folder = packages[0].workspace.package(name.text)  # where no package has the name
         likely = packages if of_folder is None else [it for it in packages if it is of_folder]
         holders = [it.declared_name for it in likely if _has(it, file.text)]
-        if named and not _has(named[0], file.text):
+        lacks = bool(named) and not _has(named[0], file.text)
+        if lacks and (why := may_be_from_outside(named[0], f"launch/{file.text}")):
+            yield unchecked(f"{file.text} may be installed: {why}")
+        elif lacks:
             yield finding(
                 file, f"the command fails: {name.text} has no file {file.text}", key=file.text
             )
@@ -114,7 +128,8 @@ def _has(package: Package, path: str) -> bool:
     """Return whether a package has a file of this name, or the template that CMake makes it of."""
     name = posixpath.basename(path)
     names = (name, f"{name}.in")
-    return any(posixpath.basename(file.path) in names for file in package.index.files)
+    own = any(posixpath.basename(file.path) in names for file in package.index.files)
+    return own or is_from_outside(package, f"launch/{name}")
 
 
 def _readme(command: str) -> dict[str, object]:

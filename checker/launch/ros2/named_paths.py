@@ -21,6 +21,7 @@ from checker.launch.ros2.graph import (
     share_path,
 )
 from checker.package.installed import may_be_made, source_of
+from checker.package.installed_from_outside import is_from_outside, may_be_from_outside
 from checker.package.package import Package
 from checker.source.text import Located, Span
 
@@ -145,7 +146,7 @@ def is_missing(package: Package, path: SharePath) -> bool:
     if holder is None or not path.path or path.path.startswith(".."):
         return False
     there = holder.exists(path.path) or source_of(holder, path.path) is not None
-    return not there and not may_be_made(holder, path.path)
+    return not (there or may_be_made(holder, path.path) or is_from_outside(holder, path.path))
 
 
 def without_slash(package: Package, path: SharePath) -> SharePath | None:
@@ -199,13 +200,22 @@ def _known_packages() -> frozenset[str]:
     return frozenset((*GAZEBO, *(node.partition("/")[0] for node in table("ros_nodes")["nodes"])))
 
 
-def may_be_installed(package: Package, path: SharePath) -> bool:
-    """Return whether a setup.py that computes its `data_files` may install a file of that name."""
+def may_be_installed(package: Package, path: SharePath) -> str:
+    """Return why a build may install a file that is not found, as a clause; else nothing.
+
+    A setup.py computes its `data_files`, and there is a file of that name; or CMakeLists.txt
+    installs what is outside of the package.
+    """
     holder = package.named(path.package)
-    if holder is None or holder.setup is None or holder.setup.complete:
-        return False
+    if holder is None:
+        return ""
+    if why := may_be_from_outside(holder, path.path):
+        return why
+    if holder.setup is None or holder.setup.complete:
+        return ""
     name = posixpath.basename(path.path)
-    return any(posixpath.basename(file.path) == name for file in holder.index.files)
+    is_there = any(posixpath.basename(file.path) == name for file in holder.index.files)
+    return "data_files of setup.py is computed" if is_there else ""
 
 
 def lies_elsewhere(package: Package, path: SharePath) -> str:
