@@ -404,6 +404,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("PKG024", {**CONFLICT, "arm/run.py": "from arm import tools\n"}, "error"),
     ("WIR025", {"@bridge": True, "config/ekf.yaml": EKF.replace("?", "")}, "warning"),
     ("WIR025", {"@bridge": True, "config/ekf.yaml": EKF.replace("?", "\n    # imu0: imu")}, "info"),
+    ("SEN019", spawned(PLANAR.replace("0.02 0.02 1", "0.02 0.3 1")), "info"),
+    ("SEN019", spawned(PLANAR.replace("0.02 0.02 1", "0.02 2 1")), "warning"),
     ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("view")}, "warning"),
     ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("scan_filter")}, "info"),
     ("URD007", spawned(TURNING), "error"),

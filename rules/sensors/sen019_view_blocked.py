@@ -19,18 +19,22 @@ to 29 % of a lidar's; the limits here are higher.
 from collections.abc import Iterator
 
 from checker.model.sensing.view import SensorViews, View
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
 @rule("SEN019", "view-blocked", Severity.WARNING, Concern.INTERFACE)
 def check(
     seen: SensorViews,
+    context: Context,
     *,
     most: float = 0.3,
     most_of_picture: float = 0.5,
     close: float = 0.1,
+    useless: float = 0.6,
 ) -> Findings:
     """Report views of which the robot fills more than a share.
+
+    Other than in SubT it is an info, unless little is left of the scan of a lidar.
 
     Options:
         most: Share of a lidar's rays that may hit the robot; also the share of a camera's view that
@@ -38,6 +42,7 @@ def check(
         most_of_picture: Share of a camera's view that the robot may fill at any distance; larger
             than `most`, because a camera may see the robot below it; more is reported.
         close: Metres from a camera; parts of the robot nearer than this count for `most`.
+        useless: Share of a lidar's rays above which a scan shows little but the robot.
     """
     for view in seen.views:
         fault = next(_faults(view, most, most_of_picture, close), None)
@@ -45,10 +50,12 @@ def check(
             continue
         sensor = view.mounted.sensor
         tag = view.by[1].element.tag if view.by is not None else ""
+        grave = context.is_subt or (sensor.kind.is_lidar and view.hidden_share > useless)
         by = f"; mainly {tag} {view.by[1].name.value!r}" if view.by is not None else ""
         yield finding(
             sensor.pose,
             f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} {fault}{by}",
+            severity=None if grave else Severity.INFO,
             related=[(view.by[1], f"this {tag}")] if view.by is not None else (),
         )
     if seen.robot.missing_parts:
