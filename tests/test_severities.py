@@ -120,6 +120,8 @@ CONFIGURED = {
     "config/arm.yaml": "arm: 1\n",
 }
 READS_CONFIG = "Node(package='p', executable='e', parameters=[in_package('config', 'arm.yaml')]),"
+ABROAD = "/home/ann/ws/arm/arm.urdf"
+DESCRIBES = "Node(package='p', executable='e', parameters=[{'robot_description': %s}]),"
 COPIES = {
     "CMakeLists.txt": None,
     "setup.py": """from glob import glob
@@ -406,6 +408,14 @@ CASES: list[tuple[str, Example, str]] = [
     ("WIR025", {"@bridge": True, "config/ekf.yaml": EKF.replace("?", "\n    # imu0: imu")}, "info"),
     ("SEN019", spawned(PLANAR.replace("0.02 0.02 1", "0.02 0.3 1")), "info"),
     ("SEN019", spawned(PLANAR.replace("0.02 0.02 1", "0.02 2 1")), "warning"),
+    ("WIR014", {"@ros2": DESCRIBES % f"open('{ABROAD}').read()"}, "error"),
+    ("WIR014", {"@ros2": DESCRIBES % f"Command(['xacro ', '{ABROAD}'])"}, "error"),
+    ("WIR014", {"@ros2": DESCRIBES % f"'{ABROAD}'"}, "warning"),
+    (
+        "WIR014",
+        {"@urdf": True, "launch/a.launch": f"<launch><rosparam file='{ABROAD}'/></launch>"},
+        "error",
+    ),
     ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("view")}, "warning"),
     ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("scan_filter")}, "info"),
     ("URD007", spawned(TURNING), "error"),

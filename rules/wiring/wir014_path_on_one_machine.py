@@ -8,7 +8,8 @@ parameter, it may replace the value: this is an info. Below the `WORKDIR` of a D
 works in its container alone. The placeholder of a template, `/path/to/your/arm.urdf`, is on no
 machine. In launch files of ROS 1 and ROS 2, defaults of arguments, parameters and the files that a
 command line gives a node to read are judged, and those in commands of ROS 2; also the
-files that a launch file opens, or gives to xacro, for a parameter: the launch stops without them.
+files that a launch file opens, or gives to xacro, for a parameter: the launch stops without them,
+which is an error, unless an argument replaces the path.
 So are the folders that it puts on a search path of the environment: Gazebo finds no models there.
 
 Fix: install the file with the package, and give its path in the launch file; or write
@@ -18,10 +19,11 @@ Source: ROS 2, launch_ros `ParameterFile`; ros-navigation/navigation2@b978cff5.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from checker.finding import Place
 from checker.launch.ros1.package_launch import LaunchEntries
-from checker.launch.ros2.graph import LaunchGraph, ParameterFile, Ros2Launch
+from checker.launch.ros2.graph import LaunchGraph, Parameter, ParameterFile, Ros2Launch
 from checker.launch.ros2.named_paths import is_written
 from checker.launch.ros2.package_launch import is_ros2_only
 from checker.package.containers import container_with
@@ -39,6 +41,8 @@ _READ = re.compile(r"\.(?:rviz|ya?ml|urdf|xacro|sdf|sh|world|lua)\Z")
 """Ends of files that a node reads where its command line names one."""
 _ARGUMENT, _OF_COMMAND = "argument {}", "the command line of {}"
 _OPENING = ("$(file-content ", "$(command ")
+_READ_AT_ONCE = ("textfile", "load")
+"""Kinds of parameters of ROS 1 whose files roslaunch reads itself."""
 _BY_LAUNCH = {"yaml_filename": "map"}
 """Arguments of Nav2's own launch files that replace parameters of another name."""
 
@@ -60,8 +64,9 @@ def check(package: Package, launch: Ros2Launch | None, entries: LaunchEntries) -
     wrong = [it for it in wrong if not it[1].span.source.file.startswith("../")]
     parts = ((label, text, _written_part(text)) for label, text in wrong)
     own = {part.span.place(): (label, text, part) for label, text, part in parts if part}
+    stops = _stopping(launch.entries if launch is not None else (), entries)
     for label, text, part in own.values():
-        yield _in_launch_file(package, label, text, part.span)
+        yield _in_launch_file(package, label, text, part.span, stops=text.span.place() in stops)
 
 
 def _is_wrong(text: Located[str], parameter: str = "") -> bool:
@@ -114,6 +119,23 @@ def _opened(name: str, value: str, span: Span) -> Iterator[tuple[str, Located[st
             yield f"the file of parameter {name}", Located(word.strip("'\""), span)
 
 
+def _stopping(ros_2: Sequence[LaunchGraph], ros_1: LaunchEntries) -> set[Place]:
+    """Return the places of files without which the launch stops, unless an argument is given."""
+    arguments = (it.default for graph in ros_2 for it in graph.arguments)
+    defaults = [it.value for it in arguments if it is not None and "/" in it.value]
+    own = {
+        it.span.place()
+        for graph in ros_2
+        for node in graph.nodes
+        if node.starts
+        for it in node.parameters
+        if isinstance(it, Parameter)
+        if isinstance(it.value, str) and it.value.startswith(_OPENING)
+        if not any(default in it.value for default in defaults)
+    }
+    return own | {it.span.place() for it in ros_1.graph.params if it.kind in _READ_AT_ONCE}
+
+
 def _commanded(graph: LaunchGraph) -> Iterator[tuple[str, Located[str]]]:
     """Yield the files that commands and nodes are given to read."""
     for process in graph.processes:
@@ -146,7 +168,9 @@ def _is_read(word: Located[str]) -> bool:
     return _READ.search(word.value) is not None
 
 
-def _in_launch_file(package: Package, label: str, text: Located[str], place: Span) -> Finding:
+def _in_launch_file(
+    package: Package, label: str, text: Located[str], place: Span, *, stops: bool
+) -> Finding:
     own, name = own_path_on_machine(package, text.value), package.declared_name
     if not package.exists("package.xml"):  # nothing finds a loose folder by its name
         own = ""
@@ -154,7 +178,10 @@ def _in_launch_file(package: Package, label: str, text: Located[str], place: Spa
         here = f"os.path.join(get_package_share_directory({name!r}), {own!r})"
     else:
         here = f"$({'find-pkg-share' if is_ros2_only(package) else 'find'} {name})/{own}"
-    return _finding(package, label, Located(text.value, place), f"write {here}" if own else "")
+    cure = f"write {here}" if own else ""
+    fails = stops and not container_with(package, text.value)
+    severity = Severity.ERROR if fails else None
+    return _finding(package, label, Located(text.value, place), cure, severity)
 
 
 def _in_parameters(package: Package, label: str, name: str, text: Located[str]) -> Finding:
