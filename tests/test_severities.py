@@ -120,6 +120,17 @@ CONFIGURED = {
     "config/arm.yaml": "arm: 1\n",
 }
 READS_CONFIG = "Node(package='p', executable='e', parameters=[in_package('config', 'arm.yaml')]),"
+HUNG = """<link name="foot"/>
+<joint name="j" type="floating"><parent link="base_link"/><child link="foot"/></joint>"""
+ONLY_SHOWN = {
+    "config/control.yaml": None,
+    "launch/control.launch": None,
+    "launch/spawn.launch": None,
+    "launch/show.launch": """<launch>
+  <param name="robot_description" textfile="$(find acme_arm_description)/urdf/arm.urdf"/>
+  <node name="s" pkg="robot_state_publisher" type="robot_state_publisher"/>
+</launch>""",
+}
 ABROAD = "/home/ann/ws/arm/arm.urdf"
 DESCRIBES = "Node(package='p', executable='e', parameters=[{'robot_description': %s}]),"
 COPIES = {
@@ -455,6 +466,9 @@ CASES: list[tuple[str, Example, str]] = [
     ),
     ("URD006", {"@urdf": LOST.format('<sensor name="eye" type="camera"/>')}, "error"),
     ("KIN007", {"@urdf": LIFT + GZ}, "error"),
+    ("KIN008", {"@urdf": HUNG}, "error"),
+    ("KIN008", {"@urdf": HUNG, **ONLY_SHOWN}, "warning"),
+    ("LCH004", {"@ros2": "Node(package='p', node_executable='e', node_name='n'),"}, "error"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
     ("GEO003", DRAWN_WHEEL, "warning"),

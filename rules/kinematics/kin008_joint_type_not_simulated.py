@@ -3,8 +3,8 @@
 Gazebo with DART turns a gearbox, a revolute2 and a continuous joint of SDF into a fixed joint: a
 wheel on it does not turn. A continuous joint of URDF becomes a revolute one, and turns. Gazebo
 Classic drops planar and floating joints of URDF. A robot on a floating joint of the root link
-`world` is free, as it would be without the joint. No accepted package that we checked has this
-fault.
+`world` is free, as it would be without the joint. Where nothing puts the robot into Gazebo, it is a
+warning. No accepted package that we checked has this fault.
 
 Fix: use `revolute` without limits for `continuous`, two joints with a light link between them for
 `revolute2` and `gearbox`.
@@ -16,6 +16,7 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.tree import WORLD
+from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, respelling, rule
 
 _BECOMES = {
@@ -25,7 +26,7 @@ _BECOMES = {
 
 
 @rule("KIN008", "joint-type-not-simulated", Severity.ERROR, Concern.ROBOT)
-def check(robot: Robot, context: Context) -> Findings:
+def check(robot: Robot, context: Context, package: Package) -> Findings:
     """Report joint types that are unknown or not simulated by the target release."""
     known = table("joint_types")["types"][robot.conventions.joint_types]
     lost = (
@@ -34,6 +35,8 @@ def check(robot: Robot, context: Context) -> Findings:
         .get(robot.conventions.joint_types, {})
     )
     suggestions = Suggestions(known)
+    in_gazebo = package.workspace.may_start_gazebo and not robot.shown_only
+    in_gazebo = in_gazebo or context.is_gazebo_alone or context.is_subt
     for joint in robot.joints:
         # SDFormat reads the type in any case; a missing one is for SDF005.
         type = joint.type.value.lower()
@@ -44,9 +47,9 @@ def check(robot: Robot, context: Context) -> Findings:
             yield finding(joint.type, f"{message}, which does not exist{hint}", fix=fix)
         elif type in lost and not (type == "floating" and joint.parent.value == WORLD):
             release = f"Gazebo {context.release.capitalize()}"
-            yield finding(
-                joint.type, f"{message}, {_BECOMES[lost[type]].format(release)}", key=type
-            )
+            lost_in = _BECOMES[lost[type]].format(release)
+            severity = None if in_gazebo else Severity.WARNING
+            yield finding(joint.type, f"{message}, {lost_in}", severity=severity, key=type)
 
 
 def _joint(type: str) -> str:

@@ -124,7 +124,8 @@ def _joined(named: NamedPath, meant: SharePath) -> Finding:
 def _others(package: Package, named: NamedPath) -> str:
     """Return the end of a message with the file that may be meant."""
     meant = _meant(package, named)
-    return f"; {posixpath.dirname(named.path.path)} has {meant}" if meant else ""
+    folder = posixpath.dirname(named.path.path) or "the package"
+    return f"; {folder} has {meant}" if meant else ""
 
 
 def _renamed(package: Package, named: NamedPath) -> Fix | None:

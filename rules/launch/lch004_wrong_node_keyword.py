@@ -35,12 +35,12 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                 new = meant_keyword(fault.name)
                 hint = f"; write {new}" if new else f"; add {_executable(fault.span)}"
                 release = _RELEASES.search(f"{distro} {fault.span.source.file}")
-                is_for_old = fault.name in OLD_KEYWORDS and release is not None
+                is_old = fault.name in OLD_KEYWORDS
                 yield finding(
                     fault,
                     f"{fault.message}{hint}",
-                    severity=Severity.WARNING if is_for_old else None,
-                    key=fault.message,
+                    severity=Severity.WARNING if is_old and release is not None else None,
+                    key=fault.span.source.file if is_old else fault.message,
                     fix=_renamed(fault.span, fault.name, new) if new else None,
                 )
 
