@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import posixpath
-import re
 from collections.abc import Iterator
 from functools import cached_property
 
@@ -31,6 +30,7 @@ from checker.model.geometry.mesh_units import ScaledMeshes
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
+from checker.model.locomotion.balancing import balances
 from checker.model.locomotion.drive import WING_CLASSES, driven_joints, find_wheels
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
@@ -51,8 +51,6 @@ EARTH_GRAVITY = 9.81
 """m/s², as Pinocchio and MuJoCo have it; Gazebo's default is 9.8."""
 _NEAR_EARTH = 0.05
 
-
-_BALANCING = re.compile(r"balanc|segway|pendulum", re.IGNORECASE)
 
 OTHERS_SIMULATED = "Gazebo gets another description"
 """Why no simulator gets a robot, beside one that a simulator gets."""
@@ -199,12 +197,8 @@ class Robot(Part, dict=True):
 
     @cached_property
     def balances(self) -> bool:
-        """True if a controller keeps it upright: by its name, or on two wheels at ends of legs."""
-        wheels = self.locomotion.undriven
-        parents = (f"{it.joint.scope}{it.joint.parent.value}" for it in wheels)
-        on_legs = len(wheels) == 2 and self.tree.base.isdisjoint(parents)
-        named = _BALANCING.search(self.name.value) is not None
-        return named or (on_legs and not self.locomotion.wheels)
+        """True if a controller keeps it upright."""
+        return balances(self)
 
     @cached_property
     def stands_alone(self) -> bool:

@@ -7,8 +7,9 @@ is named instead of the centre of mass. A robot that leans between 5° and 15° 
 casters that do not reach the ground does not tip over: a warning names them. Shapes within 10 mm of
 the ground support the robot, meshes with their convex hull. A robot on wheels of two sizes leans a
 little, and stands on both. A robot of URDF that stands on legs is not judged, nor is one whose name
-says that it balances: a controller decides how it stands. For a description that no simulator gets,
-such as one for transforms alone, it is an info.
+says that it balances or that has two wheels on one axle and nothing else near the ground: a
+controller decides how it stands. For a description that no simulator gets, such as one for
+transforms alone, it is an info.
 
 Fix: give each caster and foot a `<collision>` that reaches the ground: lower a part that is too
 high by its joint, or give it a greater radius. Else check the centre of mass of the heaviest link

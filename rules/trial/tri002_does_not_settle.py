@@ -4,13 +4,14 @@ The robot sinks, tips, jumps, slides or folds up before any command, so all late
 meaningless: how it drives is then not checked. Usually a collision is missing or tilted, parts
 start inside each other, or the inertia of a part is far too small. Outside of SubT, only robots
 that drive are checked: others may be fixed by the model that includes them. A robot whose name says
-that it balances, or that stands on two wheels at the ends of legs, falls without its controller,
-and is not checked.
+that it balances, or that stands on two wheels at the ends of legs or of one axle alone, falls
+without its controller: no rule checks how it drives.
 
 Fix: check first the collisions and inertias of the parts that touch the ground.
 Source: experience; the robot starts 10 mm above the ground and gets no command for 2 s.
 """
 
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.settling import SETTLE_LIMITS, excess_figures
 from checker.rule import Concern, Context, Findings, Severity, Unchecked, finding, rule, unchecked
@@ -60,7 +61,7 @@ def check(
     if not (driven.robot.drives or context.is_subt):
         return
     if driven.robot.balances:
-        yield Unchecked("a robot that balances falls without its controller", Severity.WARNING)
+        yield Unchecked(NOT_RUN, Severity.WARNING)
         return
     if driven.invalid_reason:
         yield unchecked(driven.invalid_reason)

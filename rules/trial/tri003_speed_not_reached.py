@@ -16,9 +16,10 @@ Gazebo Sim's physics engine DART keeps joints within their velocity and effort l
 """
 
 from checker.base.words import beyond
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.model.locomotion.locomotion import DriveKind
 from checker.physics.trial.robot_trial import SettledTrial
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 from checker.rulebook.example_parts import rover
 from checker.source.text import Located
 
@@ -53,6 +54,9 @@ def check(
             "a limit of its velocity or acceleration is 0, so the robot ignores commands",
             key="speed_ratio",
         )
+        return
+    if driven.robot.balances:
+        yield Unchecked(NOT_RUN, Severity.WARNING)
         return
     off = abs(ratio - 1.0)
     if off <= warning_beyond:

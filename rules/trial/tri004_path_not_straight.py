@@ -9,8 +9,9 @@ Source: a prototype trial of 60 accepted ground robots: all are straight to thre
 
 import math
 
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.physics.trial.robot_trial import SettledTrial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, Unchecked, finding, rule
 
 
 @rule(
@@ -41,6 +42,9 @@ def check(
         moved: Share of the commanded speed that the robot must reach for its sideways motion to be
             judged; the heading is always judged.
     """
+    if driven.robot.balances:
+        yield Unchecked(NOT_RUN, Severity.WARNING)
+        return
     speed = driven.trial.value("speed_ratio")
     heading = abs(driven.trial.value("path_heading") or 0.0)
     sideways = abs(driven.trial.value("path_sideways") or 0.0)

@@ -26,7 +26,8 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 def check(driven: SettledTrial) -> Findings:
     """Report motion against the command."""
     symptoms = {}
-    if driven.drives_backwards:
+    # The body of a robot that balances swings against its wheels: only its turn says something.
+    if driven.drives_backwards and not driven.robot.balances:
         ratio, leg = driven.trial.value("speed_ratio") or 0.0, driven.leg("drive")
         speed = f" at {leg.linear:.3g} m/s" if leg else ""
         symptoms["speed_ratio"] = (

@@ -9,8 +9,9 @@ more time.
 """
 
 from checker.base.words import beyond
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.physics.trial.robot_trial import SettledTrial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, Unchecked, finding, rule
 
 
 @rule("TRI008", "does-not-stop", Severity.ERROR, Concern.ROBOT, judges=("stop_speed",))
@@ -20,6 +21,9 @@ def check(driven: SettledTrial, *, error_above: float = 0.05) -> Findings:
     Options:
         error_above: Speed in m/s above the command at the end of a stop; more is an error.
     """
+    if driven.robot.balances:
+        yield Unchecked(NOT_RUN, Severity.WARNING)
+        return
     speed = driven.trial.value("stop_speed")
     if speed is None or abs(speed) <= error_above:
         return

@@ -22,13 +22,14 @@ import re
 
 from checker.formats.urdf.description import joints_with_motor
 from checker.model.components import Joint
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.model.locomotion.classic import wheel_torques
 from checker.model.locomotion.commanded_joints import commanded_joints
 from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.physics.trial.trial import Measurement
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule
 from checker.rulebook.example_parts import rover
 from checker.source.text import Located
 
@@ -49,6 +50,9 @@ def check(
         warning_above: Multiple of a joint's effort limit; a joint that needs more torque or force
             is reported.
     """
+    if driven.robot.balances:
+        yield Unchecked(NOT_RUN, Severity.WARNING)
+        return
     limits = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
     motors = _with_motor(driven.robot)
     of_plugins = wheel_torques(driven.robot)

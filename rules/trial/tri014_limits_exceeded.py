@@ -9,8 +9,9 @@ plugins.
 Source: the plugin's `max_velocity` and `max_acceleration`, compared with 2 s at full command.
 """
 
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.physics.trial.robot_trial import SettledTrial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, Unchecked, finding, rule
 
 _ROUNDING = 1.005
 """What is at the threshold as a message shows it is not above it."""
@@ -34,6 +35,9 @@ def check(
         full_acceleration_above: Multiple of the drive plugin's acceleration limit; more, averaged
             over 0.2 s, is reported.
     """
+    if driven.robot.balances:
+        yield Unchecked(NOT_RUN, Severity.WARNING)
+        return
     value = driven.trial.value
     symptoms = {}
     speed, limit = value("full_speed"), value("full_speed_limit")

@@ -8,9 +8,10 @@ that almost tip over.
 Source: a sound simulation converges: half the step changes almost nothing.
 """
 
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.physics.trial.measures.figures import MEASURES
 from checker.physics.trial.robot_trial import RepeatedTrial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, Unchecked, finding, rule
 from checker.rulebook.example_parts import rover_with_spring
 
 _MATTERS = {
@@ -39,6 +40,9 @@ def check(driven: RepeatedTrial, *, factor: float = 1.0) -> Findings:
         factor: Multiple of the allowed change of each figure at half the time step, such as 0.02 m
             of drop or 0.05 rad of tilt; more is reported.
     """
+    if driven.robot.balances:
+        yield Unchecked(NOT_RUN, Severity.WARNING)
+        return
     symptoms = []
     for name, matters in _MATTERS.items():
         once, again = driven.trial.value(name), driven.again.value(name)

@@ -10,8 +10,9 @@ Source: quasi-static balance of Coulomb friction at the contact points with thei
 """
 
 from checker.base.words import beyond
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.physics.trial.robot_trial import SettledTrial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, Unchecked, finding, rule
 from checker.rulebook.example_parts import rover
 
 
@@ -23,6 +24,9 @@ def check(driven: SettledTrial, *, warning_above: float = 0.5) -> Findings:
         warning_above: Metres that the middle of the wheels or tracks may move away from its place
             at the start of the turn; more is reported.
     """
+    if driven.robot.balances:
+        yield Unchecked(NOT_RUN, Severity.WARNING)
+        return
     drift = driven.trial.value("turn_drift")
     if drift is None or drift <= warning_above:
         return
