@@ -674,7 +674,7 @@ def test_bridges_that_reach_nothing_of_the_robot_are_errors(tmp_path: Path) -> N
     assert [str(finding.severity) for finding in report.findings] == ["error", "error"]
 
 
-@pytest.mark.parametrize(("gravity", "severity"), [("0.0 0.0 -9.8", "warning"), ("0 0 0", "error")])
+@pytest.mark.parametrize(("gravity", "severity"), [("0.0 0.0 -9.8", "info"), ("0 0 0", "error")])
 def test_a_misplaced_default_changes_nothing(gravity: str, severity: str, tmp_path: Path) -> None:
     world = tmp_path / "lab.sdf"
     physics = f'<physics type="ode"><gravity>{gravity}</gravity></physics>'

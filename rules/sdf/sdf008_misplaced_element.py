@@ -4,7 +4,8 @@ Simulators read an element only in its own place and ignore it elsewhere: `<enab
 directly below `<sensor>` has no effect on the IMU. The finding is a warning if the element is also
 set in the right place, if its value is the default there, if it only affects the appearance, or if
 the target does not read it in the right place either. Outside of submissions it is a warning unless
-it changes how the robot moves. SDF003 reports elements that SDF does not have anywhere.
+it changes how the robot moves, and an info if its value is the default. SDF003 reports elements
+that SDF does not have anywhere.
 
 Fix: move the element to the place that the message names.
 Source: SDFormat specification, the version that the file states.
@@ -81,12 +82,11 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         harmless = is_set or usual or of_others or path[1:] in HARMLESS
         idle = is_unread(element.tag, context.release) or is_appearance(element)
         grave = not {*listed, parent.tag}.isdisjoint(GRAVE_PARENTS) or element.tag == "gravity"
+        least = Severity.INFO if usual and not context.is_subt else Severity.WARNING
         yield finding(
             element,
             f"<{element.tag}> is not allowed in <{parent.tag}>{belongs}",
-            severity=None
-            if (grave or context.is_subt) and not (harmless or idle)
-            else Severity.WARNING,
+            severity=None if (grave or context.is_subt) and not (harmless or idle) else least,
             key=f"{parent.tag}/{element.tag}",
             fix=_moved(element, listed[0], kinds) if len(listed) == 1 and not harmless else None,
         )

@@ -2,15 +2,16 @@
 
 At each step Gazebo adds `<max_step_size>` to the time of the world: with zero, time does not
 advance and nothing moves; a negative one is not valid. `<real_time_factor>` is the ratio of
-simulated to real time: with zero or less, Gazebo has no speed to run at.
+simulated to real time: with zero or less, Gazebo has no speed to run at. Gazebo Classic does not
+use it: its pace is `<max_step_size>` times `<real_time_update_rate>`.
 
 Fix: state a step above zero, usually 0.001 to 0.004 s, and a factor above zero, usually 1.
-Source: gz-sim, SimulationRunner (from memory).
+Source: gz-sim, SimulationRunner; Gazebo Classic, World (from memory).
 """
 
 from checker.model.values import parse_number
 from checker.model.world import World
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 _EFFECTS = {
@@ -20,10 +21,12 @@ _EFFECTS = {
 
 
 @rule("WLD007", "non-positive-physics-step", Severity.WARNING, Concern.ROBOT)
-def check(world: World) -> Findings:
+def check(world: World, context: Context) -> Findings:
     """Report steps and factors of the physics in force that are not above zero."""
     physics = _in_force(world)
     for tag, effect in _EFFECTS.items() if physics is not None else ():
+        if tag == "real_time_factor" and context.release == "classic":
+            continue
         stated = physics.child(tag) if physics is not None else None
         value = parse_number(stated.text.value) if stated is not None else None
         if stated is not None and value is not None and value <= 0:
@@ -58,6 +61,7 @@ GOOD = [
     _world(),
     _world(_physics("0.001")),
     _world(_physics("0"), _physics("0.001", default="true")),
+    {"@profile": "gazebo-classic", "model.sdf": _world(_physics("0.001", "0"))},
 ]
 BAD = [
     _world(_physics("0", mark=_MARK)),

@@ -18,7 +18,8 @@ def _on_wheels(low: str, *, behind: float = 0.0, high: float = 0.2) -> bool:
         high: Height of the body's middle above the axles, metres.
     """
     wheels = "".join(
-        f"""<link name="{side}_wheel"><collision><origin rpy="1.5708 0 0"/>{_TYRE}</collision></link>
+        f"""<link name="{side}_wheel">
+<collision><origin rpy="1.5708 0 0"/>{_TYRE}</collision></link>
 <joint name="{side}_axle" type="continuous"><parent link="base_link"/><child link="{side}_wheel"/>
 <origin xyz="{x} {y} 0"/><axis xyz="0 1 0"/></joint>"""
         for side, x, y in (("left", 0.0, 0.15), ("right", -behind, -0.15))
