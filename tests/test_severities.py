@@ -302,6 +302,19 @@ EKF = f"""ekf:
     imu0_config: [{", ".join(["true"] * 15)}]
 """
 SCAN = '<launch><node pkg="acme_tools" exec="{}"/></launch>'
+HEAVY_BODY = """
+<link name="body">
+  <inertial><mass>100</mass><inertia><ixx>4</ixx><iyy>4</iyy><izz>4</izz></inertia></inertial>
+  <collision name="c"><geometry><sphere><radius>0.5</radius></sphere></geometry></collision>
+</link>
+<link name="eye">
+  <inertial><mass>0.1</mass><inertia><ixx>{0}</ixx><iyy>{0}</iyy><izz>{0}</izz></inertia></inertial>
+  <collision name="c"><geometry><sphere><radius>0.05</radius></sphere></geometry></collision>
+</link>
+<joint name="neck" type="revolute">
+  <parent>body</parent><child>eye</child><axis><xyz>0 0 1</xyz></axis>
+</joint>
+"""
 PLANAR = """<link name="eye"/>
 <joint name="j" type="fixed"><parent link="base_link"/><child link="eye"/></joint>
 <link name="post"><visual><origin xyz="0.3 0 0"/>
@@ -417,6 +430,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("PKG024", {**CONFLICT, "arm/run.py": "from arm import tools\n"}, "error"),
     ("WIR025", {"@bridge": True, "config/ekf.yaml": EKF.replace("?", "")}, "warning"),
     ("WIR025", {"@bridge": True, "config/ekf.yaml": EKF.replace("?", "\n    # imu0: imu")}, "info"),
+    ("INE004", HEAVY_BODY.format(0.001), "info"),
+    ("INE004", HEAVY_BODY.format(100), "warning"),
     ("SEN019", spawned(PLANAR.replace("0.02 0.02 1", "0.02 0.3 1")), "info"),
     ("SEN019", spawned(PLANAR.replace("0.02 0.02 1", "0.02 2 1")), "warning"),
     ("WIR014", {"@ros2": DESCRIBES % f"open('{ABROAD}').read()"}, "error"),

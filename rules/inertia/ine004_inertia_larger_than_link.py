@@ -63,7 +63,8 @@ def check(
         warning_below: The same ratio; less is a warning, because few bodies have so much of their
             mass near the centre (a solid ball has 0.63).
         share: Share of the robot's mass; a link with no more is often a placeholder: a moment that
-            is too large is an info, one that is too small is skipped.
+            is too large is an info, and a warning where it is more than all possible moments of the
+            robot; one that is too small is skipped.
         placeholder: Mass, kg. A link of at most this mass whose mass and moments are powers of ten,
             the moments all equal, was never weighed: a warning.
     """
@@ -73,21 +74,22 @@ def check(
     for reason in masses.robot.unknown_masses.values():
         yield unchecked(reason)
     found: list[tuple[float, str, Finding]] = []
-    for name, inertia in masses.weighed.items():
-        if (
-            inertia.link.inertial is None
-            or inertia.centre is None
-            or not inertia.states_possible_moments
-        ):
-            continue
-        reach = known_reach(masses.robot, inertia.link, inertia.centre)
+    known = [
+        (name, it, it.centre, known_reach(masses.robot, it.link, it.centre))
+        for name, it in masses.weighed.items()
+        if it.link.inertial is not None and it.centre is not None and it.states_possible_moments
+    ]
+    possible = sum(
+        it.principal[2] for _, it, _, reach in known if it.gyration_radius <= (reach or 0)
+    )
+    for name, inertia, centre, reach in known:
         ratio = inertia.gyration_radius / reach if reach else math.inf
         if warning_below <= ratio <= warning_above:
             continue
         unknown = unknown_mesh(masses.robot, inertia.link)
         if unknown:
             yield unchecked(unknown)
-        elif ratio < warning_below and displacement(masses.robot, inertia.link, inertia.centre):
+        elif ratio < warning_below and displacement(masses.robot, inertia.link, centre):
             continue  # INE005 says so.
         elif reach and (ratio > warning_above or masses.share(name) > share):
             heavy = masses.share(name) > share and not (is_prop and ratio <= _SEVERAL)
@@ -100,7 +102,7 @@ def check(
                 inertia.moments_span,
                 _message(inertia, reach, "large" if ratio > warning_above else "small")
                 + _of_other_mass(masses.robot, inertia),
-                severity=severity if heavy else Severity.INFO,
+                severity=severity if heavy else _of_light(inertia, 0.0 if is_prop else possible),
                 key="" if heavy else "placeholder",
                 fix=moments_fix(masses.robot, inertia.link),
                 covered_by=("INE013",),
@@ -123,6 +125,11 @@ def _of_one_formula(found: Sequence[tuple[float, str, Finding]]) -> Iterator[Fin
         else:
             grave = Severity.ERROR if Severity.ERROR in severities else Severity.WARNING
             yield replace(fault, severity=grave, key=formula)
+
+
+def _of_light(inertia: LinkInertia, possible: float) -> Severity:
+    """Return the severity for a link of little mass: it may turn as heavily as all others."""
+    return Severity.WARNING if 0.0 < possible < inertia.principal[2] else Severity.INFO
 
 
 def _formula(inertia: LinkInertia) -> str:
