@@ -3,8 +3,10 @@
 A joint turns about its axis by the right-hand rule: wheels roll forward, to +x, if their axes point
 to the left, to +y. With one axis reversed, the wheels work against each other. With all axes
 reversed, the robot drives backwards when commanded forwards. With swapped sides it turns the wrong
-way: where all are swapped and roll forward, no axis is wrong. No accepted package that we checked
-has this fault.
+way: where all are swapped and roll forward, no axis is wrong. If the names of the joints agree with
+the lists, the joints are in the wrong places: hardware that maps joints by their names turns the
+right way, so this is a warning where a controller drives them and nothing starts Gazebo. No
+accepted package that we checked has this fault.
 
 Wheels that are called left and right and that no plugin or controller lists are compared with their
 places: what drives them relies on their names.
@@ -13,7 +15,8 @@ In ROS 1, `libgazebo_ros_diff_drive.so` takes `<leftJoint>` for the right wheel,
 `<legacyMode>false</legacyMode>`.
 
 Fix: reverse the joint's axis, or swap the left and the right joint of the drive. Where a macro
-makes all wheels, turn the origin of the joint instead.
+makes all wheels, turn the origin of the joint instead. Change the sign of y in the joints where
+their names agree with the lists.
 Source: REP 103: x forward, y left; Gazebo's DiffDrive drives forward with positive rates on both
 sides; gazebo_ros_diff_drive.cpp: `legacyMode` is true by default.
 """
@@ -25,10 +28,12 @@ from checker.base.words import and_list
 from checker.finding import Fix
 from checker.formats.corrections import is_shared, rewrite
 from checker.model.components import Joint
+from checker.model.controllers import Controller
 from checker.model.geometry.transform import Vector, dot
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
 from checker.model.locomotion.undriven import undriven_wheels
 from checker.model.robot import Robot
+from checker.package.package import Package
 from checker.rule import (
     Concern,
     Finding,
@@ -47,11 +52,14 @@ _OPPOSED = -0.9
 """Cosine of the angle between two axes up to which they point against each other."""
 _OPPOSITE = {"left": "right", "Left": "Right", "LEFT": "RIGHT"}
 _LEFT_WORD = re.compile(r"(?<![A-Za-z])left(?![a-z])|(?<![A-Z])L(?:eft(?![a-z])|EFT(?![A-Z]))")
+_RIGHT_WORD = re.compile(r"(?<![A-Za-z])right(?![a-z])|(?<![A-Z])R(?:ight(?![a-z])|IGHT(?![A-Z]))")
 _ENDS = ("front", "rear")
 
 
 @rule("GEO013", "wheel-turns-backwards", Severity.ERROR, Concern.ROBOT)
-def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25) -> Findings:
+def check(
+    robot: Robot, package: Package, *, least_cosine: float = 0.5, least_share: float = 0.25
+) -> Findings:
     """Report axes that point the wrong way, and wheels that are not on the side of their entry.
 
     If no plugin drives the robot, links that are called wheels and turn without end are checked
@@ -73,7 +81,7 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         if turned and len(turned) == len(swapped) == len(drive.wheels):
             yield _faces_backwards(drive)
         elif swapped and len(swapped) == len(drive.wheels) and _rolls_forward(drive, least_cosine):
-            yield from _swapped(drive)
+            yield from _swapped(drive, in_gazebo=package.workspace.may_start_gazebo)
         else:
             yield from (*turned, *swapped)
         yield from _on_both_sides(drive)
@@ -171,8 +179,11 @@ def _rolls_forward(drive: WheelDrive, least_cosine: float) -> bool:
     return not drive.swaps and all(axis and dot(axis, _LEFT) >= least_cosine for axis in axes)
 
 
-def _swapped(drive: WheelDrive) -> Iterator[Finding]:
+def _swapped(drive: WheelDrive, *, in_gazebo: bool) -> Iterator[Finding]:
     """Report a drive whose wheels are all on the other side than it lists, in each of its lists."""
+    if all(_is_named_for_its_side(wheel) for wheel in drive.wheels):
+        yield _misplaced(drive, in_gazebo=in_gazebo)
+        return
     sides = {side: [w.name for w in drive.wheels if w.side is side] for side in Side}
     pairs = zip(sides[Side.LEFT], sides[Side.RIGHT], strict=False)
     fixes = [
@@ -192,6 +203,33 @@ def _swapped(drive: WheelDrive) -> Iterator[Finding]:
             related=[(wheel.joint, "the joint")],
             fix=fix if wheel is drive.wheels[0] else None,
         )
+
+
+def _is_named_for_its_side(wheel: Wheel) -> bool:
+    word = _LEFT_WORD if wheel.side is Side.LEFT else _RIGHT_WORD
+    return word.search(wheel.name.value) is not None
+
+
+def _misplaced(drive: WheelDrive, *, in_gazebo: bool) -> Finding:
+    """Report wheels that are listed by their names, and whose joints have y of the wrong sign.
+
+    Hardware maps the joints by their names: it turns the right way, and would not if the lists
+    were swapped.
+    """
+    placed = [(wheel, wheel.centre[1]) for wheel in drive.wheels if wheel.centre is not None]
+    where = and_list([f"{wheel.name.value} is at y = {y:.3g} m" for wheel, y in placed])
+    is_of_hardware = isinstance(drive.plugin, Controller) and not in_gazebo
+    return finding(
+        drive.wheels[0].joint,
+        f"{where}, so left and right are swapped, and the robot turns the wrong way in a "
+        "simulation: change the sign of y in the <origin> of these joints",
+        severity=Severity.WARNING if is_of_hardware else None,
+        key=f"{drive.path} swapped",
+        related=[
+            (drive.wheels[0].name, f"{drive.plugin.label} lists them as their names say"),
+            *((wheel.joint, "this joint") for wheel, _ in placed[1:]),
+        ],
+    )
 
 
 def _turned_round(robot: Robot, joint: Joint) -> Fix | None:
@@ -359,6 +397,14 @@ def _pair(left: str, right: str, mark: str = "") -> dict[str, str]:
     return {"@urdf": text.replace('"continuous">', f'"continuous">{mark}', 1)}
 
 
+def _mirrored() -> dict[str, str]:
+    """Return a robot whose drive lists joints as they are called, on the wrong sides."""
+    wheels = _urdf_wheel("left", "0 -0.2 0", _Y) + _urdf_wheel("right", "0 0.2 0", _Y)
+    wheels = wheels.replace('"continuous">', f'"continuous">{_MARK}', 1)
+    drive = _classic(_DIFF, "left_joint=left right_joint=right")
+    return {"@urdf": f"{wheels}<gazebo>{drive}</gazebo>"}
+
+
 def _urdf_wheel(name: str, at: str, axis: str) -> str:
     return f"""
 <link name="{name}_wheel"/>
@@ -451,4 +497,5 @@ BAD = [
     _urdf(_Y, _BACK + _MARK, _classic(_SKID, _FOUR)),
     _urdf(_Y, _BACK + _MARK),
     _pair("-0.2", "0.2", _MARK),
+    _mirrored(),
 ]
