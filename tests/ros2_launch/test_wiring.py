@@ -14,12 +14,19 @@ from checker.ros.wiring.wiring import Wiring
 from checker.rule_testing import write_example
 
 HEAD = "LaunchDescription([\n"
+IMPORT = "from launch_ros.actions import Node\n"
+IMPORTS = f"""{IMPORT}from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
+from nav2_common.launch import ReplaceString
+"""
 FILE = 'os.path.join(HERE, "config", "a.yaml")'
 
 
 def wiring(nodes: str, folder: Path, yaml: str = "") -> Wiring:
     """Return the wiring of a launch file that starts nodes beside those of a rover."""
-    example = {"@bridge": True, "@launch": {HEAD: f"{HEAD}{nodes},\n"}, "config/a.yaml": yaml}
+    changes = {HEAD: f"{HEAD}{nodes},\n", IMPORT: IMPORTS}
+    example = {"@bridge": True, "@launch": changes, "config/a.yaml": yaml}
     with open_input(write_example(example, folder)) as opened:
         subject = Subject(opened.packages[0])
         found = subject.all(Wiring)
@@ -64,6 +71,30 @@ def test_the_parameters_that_count(node: str, yaml: str, value: int | None, tmp_
 
     setting = launched.nodes[0].settings.get("rate")
     assert (setting.value if setting is not None else None) == value
+
+
+@pytest.mark.parametrize(
+    ("replacing", "value"),
+    [
+        ('{"base_frame: base": ("base_frame: ", "r1", "/base")}', "r1/base"),
+        ('{"frame: base": "frame: hull"}, condition=IfCondition("true")', "hull"),
+        ('{"frame: base": "frame: hull"}, condition=IfCondition("false")', "base"),
+        ('{"frame: base": "frame: hull"}, condition=IfCondition(LaunchConfiguration("n"))', None),
+        ('{"base_frame: base": LaunchConfiguration("n")}', None),
+        ('{"odom": "r1/odom"}', "base"),
+    ],
+)
+def test_what_a_launch_file_replaces_in_a_file(
+    replacing: str, value: str | None, tmp_path: Path
+) -> None:
+    launched = wiring(
+        'DeclareLaunchArgument("n"), Node(package="a", executable="b", name="lidar", '
+        f"parameters=[ReplaceString({FILE}, {replacing})])",
+        tmp_path,
+        "lidar: {ros__parameters: {base_frame: base}}",
+    )
+
+    assert launched.nodes[0].settings["base_frame"].text == value
 
 
 @pytest.mark.parametrize(

@@ -188,12 +188,14 @@ class ParameterFile(Record, eq=False):
         substitutes: Whether substitutions in the file are made (`allow_substs`).
         span: The place of the path.
         root: A key that is put above all others of the file: `root_key` of a `RewrittenYaml`.
+        replacements: Texts of the file, each with what a `ReplaceString` writes in its place.
     """
 
     path: str
     substitutes: bool
     span: Span
     root: str = ""
+    replacements: tuple[tuple[str, str], ...] = ()
 
 
 Parameters = tuple[Parameter | ParameterFile, ...]

@@ -7,10 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from checker.base.record import Record
 from checker.launch.ros2.graph import Node, NodeKind, Parameter, ParameterFile, is_known
 from checker.model.ros_parameters import NodeBlock, read_blocks
+from checker.model.ros_parameters import Parameter as FileParameter
 from checker.package.package import Package
 from checker.source.text import SourceText, Span
 
 _EVERY = "/**"
+_UNKNOWN = "$("
 
 
 class Setting(Record, eq=False):
@@ -99,12 +101,27 @@ def settings_of(
             for block in file.blocks:
                 if block.is_for(name, namespace):
                     key = own if node.kind is NodeKind.COMPONENT else block.name
-                    blocks.setdefault(key, {}).update(_settings(block))
+                    blocks.setdefault(key, {}).update(_settings(block, file.given))
     return {name: setting for block in blocks.values() for name, setting in block.items()}
 
 
-def _settings(block: NodeBlock) -> dict[str, Setting]:
+def _settings(block: NodeBlock, given: ParameterFile) -> dict[str, Setting]:
     return {
-        name: Setting(parameter.node.plain() if parameter.is_known else "$(", parameter.span)
+        name: Setting(_value(parameter, given), parameter.span)
         for name, parameter in block.parameters.items()
     }
+
+
+def _value(parameter: FileParameter, given: ParameterFile) -> object:
+    """Return a value of a file as the node gets it: with what `ReplaceString` writes into it."""
+    source, start = parameter.key.source, parameter.key.start
+    written = text = source.text[start : parameter.span.end]
+    for old, new in given.replacements:
+        text = text.replace(old, new)
+    if text == written:
+        return parameter.node.plain() if parameter.is_known else _UNKNOWN
+    from checker.source.yaml import read_yaml
+
+    root = read_yaml(SourceText(source.file, text)).root
+    values = [value.plain() for _, value in root.entries] if root is not None else []
+    return values[0] if values else _UNKNOWN

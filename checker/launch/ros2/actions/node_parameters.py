@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from checker.launch.ros2.actions.conditions import read_conditions
 from checker.launch.ros2.context import Context
 from checker.launch.ros2.graph import Parameter, ParameterFile, Plain, Unread
 from checker.launch.ros2.substitutions import perform
@@ -11,7 +12,6 @@ from checker.launch.ros2.values import (
     FilePath,
     Guarded,
     Made,
-    PlacedText,
     Symbol,
     Unknown,
     Value,
@@ -59,8 +59,7 @@ def _entry(entry: Value, context: Context, span: Span) -> Iterator[Item]:
         case Made(name="ParameterFile"):
             substitutes = chosen_value(entry.values.get("allow_substs", False))
             file = chosen_value(entry.values.get("param_file"))
-            path, root = perform(file, context, entry.span), _root(file, context, entry.span)
-            yield _file(path, substitutes in (True, "true", "True"), entry.span, root)
+            yield _file(file, context, entry.span, substitutes in (True, "true", "True"))
         case Made(name="Parameter", values=values) if "value" in values:
             name = perform(values.get("name"), context, entry.span)
             yield from _mapping({str(name): values["value"]}, "", context, entry.span)
@@ -68,8 +67,7 @@ def _entry(entry: Value, context: Context, span: Span) -> Iterator[Item]:
             for item in entry:
                 yield from _mapping(item, "", context, span)
         case Made() | str() | FilePath() | list() | tuple():
-            root = _root(entry, context, span)
-            yield _file(perform(entry, context, span), False, span, root)
+            yield _file(entry, context, span)
         case _:
             yield Unread("the parameters are not evaluated", span)
 
@@ -82,10 +80,33 @@ def _root(file: Value, context: Context, span: Span) -> str:
     return UNKNOWN if isinstance(text, Unknown) else str(text)
 
 
-def _file(path: PlacedText | Unknown, substitutes: bool, span: Span, root: str) -> Item:
+def _replacements(file: Value, context: Context) -> Iterator[tuple[str, str]]:
+    """Yield what a `ReplaceString` writes in place of texts of a file, unless its condition fails.
+
+    What it may write, and what is not known, is `UNKNOWN`.
+    """
+    if not isinstance(file, Made):
+        return
+    if file.name != "ReplaceString":
+        yield from _replacements(chosen_value(file.values.get("source_file")), context)
+        return
+    tests = read_conditions(file, context) if file.values.get("condition") is not None else ()
+    held = [test.holds for test in tests]
+    replacements = chosen_value(file.values.get("replacements"))
+    if False in held or not isinstance(replacements, dict):
+        return
+    for text, written in replacements.items():
+        context.allowance.spend()
+        new = perform(written, context, file.span) if all(held) else UNKNOWN
+        yield str(text), UNKNOWN if isinstance(new, Unknown) else str(new)
+
+
+def _file(file: Value, context: Context, span: Span, substitutes: bool = False) -> Item:
+    path = perform(file, context, span)
     if isinstance(path, Unknown):
         return Unread(path.reason, path.span)
-    return ParameterFile(str(path), substitutes, span_of(path, span), root)
+    root, replaced = _root(file, context, span), tuple(_replacements(file, context))
+    return ParameterFile(str(path), substitutes, span_of(path, span), root, replaced)
 
 
 def _mapping(
