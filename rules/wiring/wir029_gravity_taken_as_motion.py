@@ -4,6 +4,9 @@ An IMU at rest measures 9.8 m/s² upwards. The filter takes gravity out of `imu0
 `imu0_remove_gravitational_acceleration` is true, and its default is false: what the sensor is
 tilted by, the robot seems to accelerate by, and without `two_d_mode` it rises at once.
 
+Drivers of real sensors may have removed gravity, so the rule looks only at workspaces whose launch
+files start Gazebo, whose IMU measures it, or that have none.
+
 Fix: write `imu0_remove_gravitational_acceleration: true`; or set the last row of `imu0_config` to
 false. If the driver removes gravity already, write `false`, which this rule accepts.
 Source: robot_localization, ros_filter.cpp and params/ekf.yaml; REP 145, `imu/data`:
@@ -24,6 +27,8 @@ _ACCELERATIONS = slice(12, 15)
 @rule("WIR029", "gravity-taken-as-motion", Severity.WARNING, Concern.INTERFACE)
 def check(package: Package) -> Findings:
     """Report an IMU whose accelerations are used, where nothing is said of gravity."""
+    if not package.workspace.may_start_gazebo:
+        return
     for file in package.index.with_suffix(".yaml", ".yml"):
         for block in blocks_in(package, file.path, "_config"):
             for name, parameter in block.parameters.items():
@@ -55,8 +60,11 @@ def _filter(row: str, more: str = "", mark: str = "") -> dict[str, object]:
     return {"@ros2": True, "config/ekf.yaml": text}
 
 
+_DRIVER = "        Node(package='acme_imu', executable='driver', name='imu'),"
 GOOD = [
+    {**_filter("true, true, true"), "@ros2": _DRIVER},
     _filter("false, false, false"),
     _filter("true, true, true", "\n    imu0_remove_gravitational_acceleration: true"),
 ]
-BAD = [_filter("true, false, false", mark="  # ^ WIR029")]
+_GAZEBO = "        Node(package='ros_gz_sim', executable='create', arguments=['-topic', 'a']),"
+BAD = [{**_filter("true, false, false", mark="  # ^ WIR029"), "@ros2": _GAZEBO}]

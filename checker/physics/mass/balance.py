@@ -17,6 +17,8 @@ from checker.model.robot import Robot
 
 
 Point = tuple[float, float]
+_NO_DISTANCE = 1e-12
+"""Metres below which a distance is what rounding left of none."""
 
 
 def convex_hull(points: Iterable[Point]) -> tuple[Point, ...]:
@@ -219,4 +221,5 @@ def tip_angle(stand: Stand, centre: Vector | None) -> float | None:
     if centre is None or stand.height is None or not stand.polygon:
         return None
     x, y, z = centre
-    return math.atan2(margin(stand.polygon, (x, y)), z - stand.height)
+    distance = margin(stand.polygon, (x, y))
+    return math.atan2(0.0 if abs(distance) < _NO_DISTANCE else distance, z - stand.height)
