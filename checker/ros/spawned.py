@@ -10,6 +10,7 @@ from checker.formats.sdf.reader import read_sdf
 from checker.formats.urdf.description import read_description
 from checker.formats.xacro.expansion import Expander, Expansions, Wanted
 from checker.formats.xacro.files import local_path
+from checker.launch.ros1.graph import apply_remaps
 from checker.launch.ros1.launch_file import Load
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import (
@@ -189,17 +190,26 @@ def spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
 def _descriptions_of(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:
     """Return the descriptions that a node spawns: its own, or what is published on a topic.
 
-    Of a file that two nodes publish with other arguments, one arrives: the first is taken.
+    Of a file that two nodes publish on one topic with other arguments, one arrives: the first is
+    taken. Where no node is known to publish on its topic, all that are published are.
     """
     own = [description for description in loaded if description.node is node]
     words = [word.value for word in node.arguments]
     if own or "-topic" not in words:
         return own
-    published = (it for it in loaded if _publishes(it) and it.node.starts is not False)
+    published = [it for it in loaded if _publishes(it) and it.node.starts is not False]
+    wanted = _topic(node, words[words.index("-topic") + 1]) if words[-1] != "-topic" else ""
+    published = [it for it in published if _topic(it.node, NAME) == wanted] or published
     by_file: dict[str, LoadedDescription] = {}
     for description in published:
         by_file.setdefault(description.load.path, description)
     return [*by_file.values()]
+
+
+def _topic(node: Node, name: str) -> str:
+    """Return the absolute topic that a node gets for a name."""
+    remaps = ((remap.source, remap.target) for remap in node.remaps)
+    return apply_remaps(name, remaps, node.namespace)
 
 
 def _publishes(description: LoadedDescription) -> bool:

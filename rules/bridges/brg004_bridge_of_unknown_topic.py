@@ -8,7 +8,9 @@ The rule needs all robots that the launch file spawns. It reports a topic if eve
 launch file starts is known, or if the robot has a topic with this message that is not bridged,
 whatever models of the world and parts of the robot are not available. Topics in the robot's files
 that an argument switches off are skipped. Where another node publishes joint states or, for a robot
-without a drive, the transforms of the same topic, nothing is missing: it is an info.
+without a drive, the transforms of the same topic, nothing is missing: it is an info. So it is where
+a controller gets the command, itself or by a node that passes it on, and where the robot has the
+topic in another launch file, which gives it other arguments.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.
@@ -21,6 +23,7 @@ from collections.abc import Iterable, Iterator
 from checker.base.resources import table
 from checker.launch.ros1.bridge import Direction
 from checker.launch.ros2.bridges.entry import BridgeEntry
+from checker.model.controllers import Controller
 from checker.model.locomotion.locomotion import DriveKind
 from checker.package.package import Package
 from checker.ros.simulated_topics import SimulatedTopic
@@ -67,6 +70,8 @@ def check(package: Package, simulations: Simulations, wirings: Wirings | None) -
             severity, other = Severity.ERROR if is_grave else None, ""
             if publisher := _given_otherwise(simulation, wirings, entry):
                 severity, other = Severity.INFO, f" ({publisher} in ROS)"
+            elif topic := _switched_off(simulations, simulation, entry):
+                severity, other = Severity.INFO, f" (with other arguments, the robot has {topic})"
             yield finding(entry.passed.gz_topic, f"{fault}{other}", severity=severity)
 
 
@@ -75,10 +80,32 @@ def _is_certain(simulation: Simulation, entry: BridgeEntry) -> bool:
     return bool(simulation.topics_of(entry) or _instead(simulation, entry))
 
 
+def _switched_off(simulations: Simulations, simulation: Simulation, entry: BridgeEntry) -> str:
+    """Return the topic that the same robot has in another launch file, and in this one not."""
+
+    def ends(launched: Simulation) -> set[str]:
+        topics = (topic for found in launched.topics.values() for topic in found)
+        fitting = (it.topic for it in topics if entry.gz_name in it.messages)
+        return {topic for topic in fitting if entry.gz_topic.endswith(topic)}
+
+    own = ends(simulation)
+    for other in simulations.launched:
+        if not _files(other).isdisjoint(_files(simulation)) and not own:
+            for topic in sorted(ends(other)):
+                return topic
+    return ""
+
+
+def _files(simulation: Simulation) -> set[str]:
+    return {spawned.robot.document.source.file for spawned in simulation.robots}
+
+
 def _given_otherwise(simulation: Simulation, wirings: Wirings | None, entry: BridgeEntry) -> str:
-    """Return who else in ROS publishes what a bridge should, as a clause; empty if none does."""
+    """Return who else in ROS does what a bridge should, as a clause; empty if none does."""
     message = entry.passed.ros_type.value
-    if entry.direction is Direction.TO_IGN or message not in (JOINT_STATE, _TRANSFORMS):
+    if entry.direction is Direction.TO_IGN:
+        return next(filter(None, (_taken(it, entry) for it in _wired(simulation, wirings))), "")
+    if message not in (JOINT_STATE, _TRANSFORMS):
         return ""
     if message == _TRANSFORMS and any(map(_drives, simulation.robots)):
         return ""  # nothing else publishes where the robot is
@@ -89,6 +116,25 @@ def _given_otherwise(simulation: Simulation, wirings: Wirings | None, entry: Bri
         same = each.topic == entry.ros_topic or (message == JOINT_STATE and not is_read)
         if publishes and same and message in each.types:
             return f"{each.by} publishes {each.topic}"
+    return ""
+
+
+def _taken(wiring: Wiring, entry: BridgeEntry) -> str:
+    """Return how a controller gets the command that a bridge should pass; empty if it does not."""
+    wanted = {
+        it.topic: it.by
+        for it in wiring.endpoints
+        if not it.publishes and isinstance(it.owner, Controller)
+    }
+    if entry.ros_topic in wanted:
+        return f"{wanted[entry.ros_topic]} reads {entry.ros_topic}"
+    for node in wiring.every_node:
+        named = [word.value for word in node.node.arguments]
+        named += [remap.target for remap in node.node.remaps]
+        topics = {node.resolve(name) for name in named if not name.startswith("-")}
+        if entry.ros_topic in topics and node.node.starts is not False:
+            for topic in sorted(topics & wanted.keys()):
+                return f"{node.label} passes {entry.ros_topic} on to {wanted[topic]}"
     return ""
 
 
