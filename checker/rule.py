@@ -115,6 +115,19 @@ def finding(
     return Finding((_place(where), *others), message, severity, key, fix, covered_by)
 
 
+def lessened(found: Finding, clause: str, own: Severity = Severity.ERROR) -> Finding:
+    """Return a finding that weighs a step less, at least an info.
+
+    Args:
+        found: The finding.
+        clause: Why it does, for its message.
+        own: The severity of its rule.
+    """
+    is_error = (found.severity or own) is Severity.ERROR
+    severity = Severity.WARNING if is_error else Severity.INFO
+    return replace(found, message=f"{found.message} ({clause})", severity=severity)
+
+
 def _place(where: Where) -> Place:
     return where if isinstance(where, Place) else where.span.place()
 

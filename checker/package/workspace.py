@@ -21,6 +21,7 @@ from checker.package.overlay import Overlay
 from checker.package.package import Package
 from checker.package.references import PROVIDED
 from checker.package.walk import build_index
+from checker.source.text import without_comments
 
 MAX_FOLDERS = 5_000
 MANIFEST_LIMIT = 1_000_000
@@ -166,6 +167,12 @@ class Workspace(Record, eq=False, dict=True):
         return frozenset(
             word for text in self.launch_texts.values() for word in _WORD.findall(text)
         )
+
+    @cached_property
+    def started_words(self) -> frozenset[str]:
+        """Every word of the launch files of all available packages, without their comments."""
+        texts = (without_comments(*each) for each in self.launch_texts.items())
+        return frozenset(word for text in texts for word in _WORD.findall(text))
 
     @property
     def may_start_gazebo(self) -> bool:

@@ -98,6 +98,11 @@ class SpawnedFiles(Record, eq=False, dict=True):
             return _ELSEWHERE
         return _HARDWARE if any(map(_starts_manager, loading)) else ""
 
+    def of_hardware(self, robot: Robot) -> str:
+        """Return that a robot is loaded for hardware alone, as a clause; empty if it may not be."""
+        clause = self.without(robot)
+        return clause if clause == _HARDWARE else ""
+
     def managers_outside(self, robot: Robot) -> Iterator[OutsideManager]:
         """Yield the ros2_control_nodes that certainly get the file of a robot, and no Gazebo.
 

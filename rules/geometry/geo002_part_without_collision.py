@@ -3,8 +3,9 @@
 A link without collision touches nothing: a wheel turns in the air or sinks into the ground, a body
 drives through walls, and a robot without collisions falls through the world. It is an info in a
 URDF that no launch file of the workspace gives to a simulator, since RViz needs no collision, and
-in what is fixed to the world, such as a camera that looks at the robot. No
-accepted package that we checked has this fault.
+in what is fixed to the world, such as a camera that looks at the robot. A robot without collisions
+weighs less where launch files give it to ros2_control of hardware alone. No accepted package that
+we checked has this fault.
 
 Fix: give the part a `<collision>`: a wheel a cylinder, a track boxes and cylinders, a body a simple
 shape around it.
@@ -16,12 +17,25 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.components import Link, Plugin
 from checker.model.robot import Robot
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
+from checker.ros.spawned_files import SpawnedFiles
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    lessened,
+    rule,
+    unchecked,
+)
 from checker.source.text import Located
 
 
 @rule("GEO002", "part-without-collision", Severity.ERROR, Concern.ROBOT)
-def check(robot: Robot, context: Context, *, body_share: float = 0.25) -> Findings:
+def check(
+    robot: Robot, context: Context, spawned: SpawnedFiles | None, *, body_share: float = 0.25
+) -> Findings:
     """Report wheels and tracks without collision; a warning for wheels that nothing drives.
 
     Options:
@@ -34,7 +48,9 @@ def check(robot: Robot, context: Context, *, body_share: float = 0.25) -> Findin
         yield unchecked(robot.missing_parts or robot.unread_plugins)
     if robot.links and not any(link.collisions for link in robot.links):
         if not robot.missing_parts:
-            yield _without_any(robot, context)
+            found = _without_any(robot, context)
+            clause = spawned.of_hardware(robot) if spawned is not None else ""
+            yield lessened(found, clause) if clause and not robot.shown_only else found
         return
     for part in _driven(robot):
         if not any(link.collisions for link in part.links):

@@ -19,8 +19,6 @@ No accepted package that we checked has this fault.
 
 from collections.abc import Mapping, Set
 
-from msgspec.structs import replace
-
 from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.launch.ros2.package_launch import built_by_ament
@@ -44,7 +42,17 @@ from checker.package.dependencies import (
 from checker.package.package import Package
 from checker.ros.ros2_control.plugin_packages import plugin_uses
 from checker.ros.spawned_files import SpawnedFiles
-from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import (
+    Concern,
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    lessened,
+    rule,
+    unchecked,
+)
 
 _NONE = "__default__"
 """Value that old releases of libsdformat wrote if a file names no library."""
@@ -64,13 +72,7 @@ def check(host: PluginHost, package: Package, context: Context, spawned: Spawned
         return
     clause = "" if robot is None or robot.never_simulated else spawned.without(robot)
     for each in found:
-        yield _lessened(each, clause) if clause and isinstance(each, Finding) else each
-
-
-def _lessened(found: Finding, clause: str) -> Finding:
-    is_error = (found.severity or Severity.ERROR) is Severity.ERROR
-    severity = Severity.WARNING if is_error else Severity.INFO
-    return replace(found, message=f"{found.message} ({clause})", severity=severity)
+        yield lessened(each, clause) if clause and isinstance(each, Finding) else each
 
 
 def _found(host: PluginHost, package: Package, context: Context) -> Findings:

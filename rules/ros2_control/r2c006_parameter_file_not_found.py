@@ -19,7 +19,8 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.package.uris import is_on_one_machine
 from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile, PluginFiles
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.ros.spawned_files import SpawnedFiles
+from checker.rule import Concern, Finding, Findings, Severity, finding, lessened, rule, unchecked
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
 _TAG = "<parameters>"
@@ -27,14 +28,24 @@ _ARGUMENT = re.compile(r"\$[({](?:arg\s{1,8})?(\w{1,100})[)}]")
 
 
 @rule("R2C006", "parameter-file-not-found", Severity.ERROR, Concern.INTERFACE)
-def check(files: PluginFiles, package: Package, papers: Paperwork) -> Findings:
+def check(
+    files: PluginFiles, package: Package, papers: Paperwork, spawned: SpawnedFiles | None
+) -> Findings:
     """Report files that do not exist, and packages that nothing says to be needed.
 
     A package that package.xml does not name either is a warning; if the file is in this package
     under the same path, it is an error. So is an absolute path, but for one below the `WORKDIR` of
     a Dockerfile: a warning, because its container has it. A plugin without `<parameters>` is
-    a warning.
+    a warning. In a description for ros2_control of hardware alone it weighs less.
     """
+    found = [*_found(files, package, papers)]
+    has_any = any(isinstance(each, Finding) for each in found)
+    clause = spawned.of_hardware(files.robot) if has_any and spawned is not None else ""
+    for each in found:
+        yield lessened(each, clause) if clause and isinstance(each, Finding) else each
+
+
+def _found(files: PluginFiles, package: Package, papers: Paperwork) -> Findings:
     for fault in files.faults:
         yield finding(fault.span, f"the parameter file cannot be read: {fault.message}")
     for reason in files.unread:

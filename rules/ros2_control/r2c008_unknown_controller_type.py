@@ -5,7 +5,7 @@ The spawner ends with an error for a type that no package exports. Some types we
 the `JointGroup…Controller`s since Lyrical. Types of ROS 1, such as
 `joint_state_controller/JointStateController`, never existed in ROS 2.
 
-Where no launch file names the controller, nothing loads it: that is a warning.
+Where no launch file names the controller outside of comments, nothing loads it: that is a warning.
 
 An unknown type is not judged in a package for a distribution before Humble, or where a `.repos`
 file names a fork of ros2_controllers. Types of other packages are not judged, unless the class has
@@ -99,7 +99,7 @@ def check(control: ConfiguredControllers, context: Context, package: Package) ->
             if unknown:
                 yield unchecked(f"{name}: {unknown}")
                 continue
-            words = package.workspace.launch_words
+            words = package.workspace.started_words
             level = None if not words or controller.name in words else Severity.WARNING
             instead = _INSTEAD.get(name)
             message = f"ROS 2 {distribution.title()} has no controller of type {name}"

@@ -16,6 +16,11 @@ LINK = '<link name="base_link"/>'
 PLUGIN = '<gazebo><plugin filename="{}" name="{}"/></gazebo>'
 SIM = PLUGIN.format("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin")
 CLASSIC = PLUGIN.format("libgazebo_ros2_control.so", "control")
+SOLID = """<link name="arm">
+  <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+</link>
+<joint name="swing" type="continuous"><parent link="base_link"/><child link="arm"/></joint>
+"""
 CONTROL = """<ros2_control name="arm" type="system">
   <hardware><plugin>arm_driver/Arm</plugin></hardware>
 </ros2_control>
@@ -159,6 +164,46 @@ def test_unknown_library(tmp_path: Path) -> None:
     ((severity, message),) = findings("PLG002", files, tmp_path)
     assert severity is Severity.WARNING
     assert DRIVEN in message
+
+
+@pytest.mark.parametrize(
+    ("rule", "nodes", "expected"),
+    [
+        ("GEO002", (MANAGER,), Severity.INFO),
+        ("GEO002", (MANAGER, CREATE), Severity.WARNING),
+        ("R2C006", (MANAGER,), Severity.INFO),
+        ("R2C006", (MANAGER, CREATE), Severity.WARNING),
+    ],
+)
+def test_robot_of_hardware_alone(
+    tmp_path: Path, rule: str, nodes: tuple[str, ...], expected: Severity
+) -> None:
+    own = robot(CONTROL, SOLID, SIM)
+    files = {"urdf/arm.urdf": own, "launch/arm.launch.xml": launch("arm.urdf", *nodes)}
+    ((severity, message),) = findings(rule, files, tmp_path)
+    assert severity is expected
+    assert (DRIVEN in message) is (expected is Severity.INFO)
+
+
+@pytest.mark.parametrize(
+    ("spawner", "expected"),
+    [
+        (NODE.format("controller_manager", "spawner", "lift"), Severity.ERROR),
+        (f"<!-- {NODE.format('controller_manager', 'spawner', 'lift')} -->", Severity.WARNING),
+    ],
+)
+def test_type_of_a_controller_that_a_comment_spawns(
+    tmp_path: Path, spawner: str, expected: Severity
+) -> None:
+    files = {
+        "urdf/arm.urdf": robot(CONTROL, NAMING),
+        "config/both.yaml": BOTH.replace(
+            "imu_sensor_broadcaster/IMUSensor", "effort_controllers/"
+        ).replace("imu_broadcaster", "lift"),
+        "launch/arm.launch.xml": launch("arm.urdf", CREATE, spawner),
+    }
+    ((severity, _),) = findings("R2C008", files, tmp_path)
+    assert severity is expected
 
 
 @pytest.mark.parametrize(
