@@ -6,7 +6,9 @@ colons (`nav2_behaviors::Spin`). Since Jazzy, bt_navigator loads the libraries o
 tree nodes by itself: one that `plugin_lib_names` lists as well is registered twice ("ID already
 registered"), and bt_navigator fails to configure. So it does with a library that the distribution
 does not have ("Could not load library"): one of another distribution's parameter file, or misspelt.
-Libraries of Nav2 that no distribution knows may be your own, and are not checked.
+A library `nav2_…` that no distribution has and no CMakeLists.txt of the workspace builds is a
+warning: another package may bring it. Libraries of other names may be your own, and are not
+checked.
 
 It is reported if the package names its distribution, or `--distro` does. Files whose path names
 another distribution are not checked.
@@ -79,18 +81,21 @@ def _not_built(package: Package, block: NodeBlock, distro: str) -> Iterator[Find
     absent = [it for it in _listed(block) if it.value.startswith("nav2_") and it.value not in known]
     names = Suggestions(known)
     for library in absent:
+        if _is_own(package, library.value):
+            continue
         meant = _near(library.value, known) or names.correction(library.value)
         having = _having(library.value)
-        if (meant or having) and not _is_own(package, library.value):
-            cure = f"did you mean {meant!r}?" if meant else "remove it"
-            there = f" ({having} has it)" if having else ""
-            yield finding(
-                library,
-                f"bt_navigator does not start: {distro.capitalize()} has no library "
-                f"{library.value!r}{there}; {cure}",
-                key=library.value,
-                fix=rename(library, meant) if meant else None,
-            )
+        cure = f"did you mean {meant!r}?" if meant else "remove it"
+        there = f" ({having} has it)" if having else ""
+        of_none = "" if meant or having else ", and no CMakeLists.txt here builds it"
+        yield finding(
+            library,
+            f"bt_navigator does not start: {distro.capitalize()} has no library "
+            f"{library.value!r}{there}{of_none}; {cure}",
+            severity=Severity.WARNING if of_none else None,
+            key=library.value,
+            fix=rename(library, meant) if meant else None,
+        )
 
 
 def _near(name: str, known: frozenset[str]) -> str | None:
@@ -109,7 +114,11 @@ def _having(name: str) -> str:
 
 def _is_own(package: Package, name: str) -> bool:
     """Return whether the workspace builds a library, or a Nav2 of its own."""
-    builds = (it.read("CMakeLists.txt") for it in (package, *package.other_packages))
+    builds = (
+        holder.read(build.path)
+        for holder in (package, *package.other_packages)
+        for build in holder.index.with_suffix("cmakelists.txt")
+    )
     return package.workspace.package("nav2_behavior_tree") is not None or any(
         isinstance(build, SourceText) and has_word(build.text, name) for build in builds
     )
@@ -167,7 +176,9 @@ GOOD = [
     _example("nav2_behaviors::Spin", _OWN),
     _example("acme_behaviors/Spin", _OWN),
     _example("nav2_behaviors/Spin", _STOCK, path="nav2_humble"),
-    _example("nav2_behaviors/Spin", f"{_ENDLESS}, nav2_rover_bt_node") | _HUMBLE,
+    _example("nav2_behaviors/Spin", f"{_ENDLESS}, nav2_rover_bt_node")
+    | _HUMBLE
+    | {"src/CMakeLists.txt": "add_library(nav2_rover_bt_node SHARED rover.cpp)\n"},
     _example("nav2_behaviors/Spin", f"{_ENDLESS}_bt_node")
     | _HUMBLE
     | {"CMakeLists.txt": f"add_library({_ENDLESS}_bt_node SHARED src/timer.cpp)\n"},
@@ -179,4 +190,5 @@ BAD = [
     _example("nav2_behaviors/Spin", "nav2_are_error_codes_active_condition_bt_node", _MARK)
     | _HUMBLE,
     _example("nav2_behaviors::Spin", "nav2_change_goal_node_bt_node", _MARK),
+    _example("nav2_behaviors/Spin", f"{_ENDLESS}, nav2_rover_bt_node", _MARK) | _HUMBLE,
 ]
