@@ -8,10 +8,12 @@ setup.py, so that must exist. In a package of ROS 1, a missing file or folder is
 `catkin_make install` needs it. So is a source that `.gitignore` excludes: a script may make it
 before the build. No accepted package that we checked has this fault.
 
-Fix: remove the entry, or add the file or folder; a pattern, as in `glob("config/*.yaml")`, installs
-the files that exist; give a folder that a pattern matches an entry of its own. git does not keep
-empty folders; `git add -f FILE` adds a file that `.gitignore` excludes. Do not remove the entry of
-`.setup_assistant`: MoveIt's launch files find the robot by it.
+A pattern, as in `glob("config/*.yaml")`, installs the files that exist; a folder that it matches
+needs an entry of its own. git does not keep empty folders; `git add -f FILE` adds a file that
+`.gitignore` excludes. Do not remove the entry of `.setup_assistant`: MoveIt's launch files find the
+robot by it.
+
+Fix: remove the entry, or add the file or folder, as the message says.
 Source: CMake, tested: `cmake --install` ends with "cannot find" for a file or folder, `cmake` with
 "Cannot find source file" or "does not exist" for a source or target; setuptools, tested: "can't
 copy …: doesn't exist or not a regular file".
@@ -99,6 +101,8 @@ def _of_install(
             hints.append(f"{ignored} keeps it out of the repository: git add -f {item.value}")
         elif alike:
             hints.append(f"did you mean {alike[0]}?")
+        elif install.kind == "DIRECTORY" and not hints:
+            hints.append("git keeps no empty folders")
     names = and_list([item.value for item in items])
     what = "folder" if install.kind == "DIRECTORY" else "file"
     what, verb = (f"{what}s", "do") if len(items) > 1 else (what, "does")
