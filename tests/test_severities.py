@@ -161,6 +161,16 @@ BRACKET = """
 <inertial><mass>{mass}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
 <collision name="c"><geometry>{shape}</geometry></collision>
 """
+HOLDER = f"""
+<link name="body">
+  <inertial><mass>{{}}</mass><inertia><ixx>90</ixx><iyy>90</iyy><izz>90</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>
+</link>
+<link name="holder">{BRACKET.format(mass=10, shape="<sphere><radius>0.05</radius></sphere>")}</link>
+<joint name="mount" type="{{}}">
+  <parent>body</parent><child>holder</child><axis><xyz>0 0 1</xyz></axis>
+</joint>
+"""
 DRAWN_CUBE = {"meshes/cube.obj": CUBE + "".join(f"f {side}\n" for side in SIDES)}
 CUBE_MESH = "<mesh><uri>meshes/cube.obj</uri></mesh>"
 CUBE_BOX = "<box><size>0.1 0.1 0.1</size></box>"
@@ -412,6 +422,9 @@ CASES: list[tuple[str, Example, str]] = [
     ("GEO001", WHEEL, "warning"),
     ("GEO001", WHEEL.replace("wheel", "mast"), "info"),
     ("INE006", BRACKET.format(mass=30, shape=CUBE_BOX), "warning"),
+    ("INE006", HOLDER.format(150, "fixed"), "warning"),
+    ("INE006", HOLDER.format(300, "fixed"), "info"),
+    ("INE006", HOLDER.format(300, "revolute"), "warning"),
     (
         "INE006",
         {"@fragment": BRACKET.format(mass=20, shape=CUBE_MESH), **DRAWN_CUBE},

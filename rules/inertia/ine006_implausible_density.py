@@ -43,6 +43,9 @@ _FOAM = 100.0
 """kg/m³; a link whose mass was in grams is denser than foam."""
 _ALUMINIUM = 2700.0
 """kg/m³, from which a mass is proposed."""
+_SLIGHT = 0.05
+"""Share of the mass of the robot; a link of its base that is denser than steel with less is an info:
+its shape may stand for a larger part, such as a ball for a caster with its holder."""
 _GRAVE = 0.1
 """Share of the mass of the robot; a link of impossible density with no more is a warning: it may be
 right for the robot, while the shape stands for a larger one."""
@@ -104,8 +107,10 @@ def check(
         most = max(collisions[1], drawn)
         counted = link.visuals if drawn > collisions[1] else link.collisions
         drawn_only = any(map(_is_mesh, counted)) and not _fills(masses, inertia, impossible)
-        heavy = Severity.INFO if drawn_only else Severity.WARNING
         density = inertia.mass / most if most > 0.0 else 0.0
+        slight = masses.share(name) < _SLIGHT and name in masses.robot.tree.base
+        slight = slight and density <= impossible
+        heavy = Severity.INFO if drawn_only or slight else Severity.WARNING
         if density > heaviest:
             found.append(_Heavy(name, inertia, most, heavy))
         elif density > max(metal, contrast * others.density(name)):
