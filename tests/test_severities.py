@@ -538,6 +538,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("PKG008", {**COPIES, "urdf/a.urdf": "<mesh filename='meshes/old/arm.dae'/>"}, "error"),
     ("PKG008", {**COPIES, "urdf/a.urdf": "<mesh filename='${folder}/arm.dae'/>"}, "info"),
     ("PKG015", {"third_party/asio/read me.hpp": ""}, "warning"),
+    ("PKG015", {"lab/first drive.png": ""}, "info"),
+    ("PKG015", {"materials/old paint.png": ""}, "warning"),
     ("PKG015", {"third_party/asio/read me.hpp": "", "third_party/asio/LICENSE": ""}, "info"),
     ("PKG015", {"meshes/old body.dae": "", "meshes/LICENSE": ""}, "warning"),
     ("PKG016", LINKED, "error"),

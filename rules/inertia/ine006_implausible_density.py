@@ -44,7 +44,7 @@ _FOAM = 100.0
 _ALUMINIUM = 2700.0
 """kg/m³, from which a mass is proposed."""
 _SLIGHT = 0.05
-"""Share of the mass of the robot; a link of its base that is denser than steel with less is an info:
+"""Share of the mass of the robot; one of its base that is denser than steel with less is an info:
 its shape may stand for a larger part, such as a ball for a caster with its holder."""
 _GRAVE = 0.1
 """Share of the mass of the robot; a link of impossible density with no more is a warning: it may be

@@ -3,10 +3,10 @@
 URIs, CMake lists and shell commands break at spaces. Systems encode letters outside ASCII
 differently. Of two names that differ only in case, Windows and macOS keep one. No accepted package
 that we checked has this fault. GIF files, films and documents are not judged: no simulator reads
-them. In a folder such as `third_party/asio`, with a licence or a manifest of its own, this is an
-info; so it is in a package of a released repository, copied beside the user's own packages, that
-none of these uses. REF002, PKG004 or PKG009 report a reference that differs from its file only in
-case.
+them. A picture is an info, unless it is in a folder of models or maps: it is a screenshot. In a
+folder such as `third_party/asio`, with a licence or a manifest of its own, this is an info; so it
+is in a package of a released repository, copied beside the user's own packages, that none of these
+uses. REF002, PKG004 or PKG009 report a reference that differs from its file only in case.
 
 Fix: use only ASCII letters, digits, `_`, `-` and `.` in the name, and correct the references to it.
 Source: common practice with CMake lists, URIs and archives made on Windows and macOS.
@@ -18,13 +18,21 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from checker.package.index import FileEntry
+from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.package.target import package_around
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _READ_BY_PEOPLE = (
     *(".gif", ".mp4", ".mov", ".webm", ".avi"),
     *(".md", ".pdf", ".docx", ".pptx", ".xlsx", ".odt", ".txt"),
 )
+_PICTURE = re.compile(
+    r"(?!.*\b(materials?|textures?|mesh(es)?|models?|media|urdf|worlds?|maps?)\b)"
+    r".*\.(png|jpe?g|bmp|webp)",
+    re.IGNORECASE,
+)
+"""A picture in no folder of what a simulator or Nav2 reads."""
 _VENDORED = re.compile(
     r"(.*/)?(third_?party|3rd_?party|externals?|extern|vendor(ed)?|libs?|deps)/.*", re.IGNORECASE
 )
@@ -36,6 +44,8 @@ _OF_ITS_OWN = re.compile(
 @rule("PKG015", "unsafe-file-name", Severity.WARNING, Concern.PORTABILITY)
 def check(package: Package) -> Findings:
     """Report names with spaces, with non-ASCII letters, or that differ only in case."""
+    if package.kind is PackageKind.WORLD and package_around(package) is not None:
+        return  # reported of that package
     twins: dict[str, list[FileEntry]] = defaultdict(list)
     libraries = _libraries(package)
     for path, entry in package.index.entries.items():
@@ -60,7 +70,8 @@ def _libraries(package: Package) -> tuple[str, ...]:
 
 
 def _severity(path: str, libraries: tuple[str, ...]) -> Severity | None:
-    return Severity.INFO if path.startswith(libraries) else None
+    is_unread = path.startswith(libraries) or _PICTURE.fullmatch(path)
+    return Severity.INFO if is_unread else None
 
 
 def _letters(package: Package, path: str, severity: Severity | None) -> Iterator[Finding]:

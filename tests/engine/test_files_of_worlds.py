@@ -91,3 +91,15 @@ def test_a_model_that_a_world_includes_and_that_is_not_there_is_not_checked(
     settings = Settings(select=("REF002",), trial=False)
     report = check_package(tmp_path / "hall.world", settings).packages[0]
     assert len(report.blind_spots) == reasons
+
+
+def test_the_name_of_a_world_is_reported_once(tmp_path: Path) -> None:
+    package = tmp_path / "acme_hall"
+    (package / "worlds").mkdir(parents=True)
+    manifest = "<package format='3'><name>acme_hall</name></package>"
+    (package / "package.xml").write_text(manifest)
+    (package / "worlds/hall copy.world").write_text(_WORLD)
+    settings = Settings(select=("PKG015",), trial=False)
+    reports = check_package(package, settings).packages
+    assert len(reports) == 2
+    assert sum(len(report.findings) for report in reports) == 1
