@@ -12,6 +12,7 @@ from msgspec.structs import replace
 from checker.base.allowance import Exceeded
 from checker.base.cache import Cache
 from checker.base.extras import PHYSICS
+from checker.base.files import NotReadable
 from checker.base.garbage_collection import collection_put_off
 from checker.base.output import Say, Stages
 from checker.base.parts import NotAvailable, type_name
@@ -55,6 +56,8 @@ from checker.settings import Settings
 
 T = TypeVar("T")
 
+_LAUNCH = (".launch", "launch.py", "launch.xml", "launch.yaml", "launch.yml")
+"""How the names of launch files end."""
 _SHOWN = 10
 """XML files that are too large, by their names."""
 
@@ -233,6 +236,11 @@ def what_is_unread(subject: Subject) -> tuple[NotChecked, ...]:
 def _unread(package: Package) -> Iterator[str]:
     """Yield which files and folders could not be read, and why."""
     yield from (f"{fault.path} {fault.reason}" for fault in package.index.faults)
+    for path in package.index.entries:
+        is_own = path.endswith(_LAUNCH) and not package.lies_in_unit(path)
+        source = package.read(path) if is_own else None
+        if isinstance(source, NotReadable):
+            yield f"{path} {source.reason}"
     large = package.too_large
     yield from (f"{file.path} {file.reason}" for file in large[:_SHOWN])
     if len(large) > _SHOWN:

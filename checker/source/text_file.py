@@ -88,4 +88,12 @@ def read_text(location: Path, path: str, limit: int = TEXT_LIMIT) -> SourceText 
     try:
         return SourceText(path, decode(data), encoding=encoding_of(data))
     except NotText as error:
-        return NotReadable(path, str(error))
+        text = _python(data) if path.endswith(".py") else ""
+        return SourceText(path, text) if text else NotReadable(path, str(error))
+
+
+def _python(data: bytes) -> str:
+    """Return a program with comments that are not UTF-8, which Python imports; else nothing."""
+    text = data.decode("utf-8", "replace")
+    outside = (line.partition("#")[0] for line in text.splitlines())
+    return "" if "\0" in text or any("\ufffd" in part for part in outside) else text

@@ -3,7 +3,7 @@
 Gazebo merges links that fixed joints connect, with all their sensors. A link cannot have two
 sensors of one name: Gazebo Sim prints "sensor with name[…] already exists" and does not spawn the
 robot. It happens where a macro is called twice and does not put its prefix into the name of the
-sensor. Gazebo Classic loads both, and their topics and plugins are not told apart: a warning.
+sensor. Gazebo Classic loads both, with topics of one name: a warning.
 
 Fix: give each sensor its own name, such as `${prefix}_range`; or keep the links apart with
 `<preserveFixedJoint>true</preserveFixedJoint>` below `<gazebo reference="joint">`.
