@@ -121,9 +121,10 @@ def free_number(stem: str, taken: Container[str]) -> int:
 def plain(text: str) -> str:
     """Replace characters that would steer a terminal: escapes, line breaks, bidi marks.
 
-    Halves of surrogate pairs, which represent bytes of file names that are no text, go too.
+    Halves of surrogate pairs, which represent bytes of file names that are no text, go too. A tab
+    becomes a space.
     """
-    return _CONTROL.sub("\N{REPLACEMENT CHARACTER}", text)
+    return _CONTROL.sub("\N{REPLACEMENT CHARACTER}", text.replace("\t", " "))
 
 
 def shortened(text: str, limit: int) -> str:

@@ -26,6 +26,8 @@ _NAMING = (
 _COMPUTED = re.compile(r"""(?:[\]\})]|["']\s*[,+]\s*["']|["'])\.(?:world|sdf)\b""")
 """The name of a world that a launch file puts together."""
 _WORLDS = (".world", ".sdf")
+_ARGUMENTS = ("world", "worlds")
+"""Names that launch files have for arguments and folders, whatever world they start."""
 _WORLD_TAG = re.compile(r"<world\b")
 _URI = re.compile(r"<uri>([^<>]{1,300})</uri>")
 _SPAWNING = re.compile(
@@ -70,7 +72,7 @@ def _pages_above(package: Package) -> Iterator[str]:
 def _is_started(texts: Iterable[str], file: str) -> bool:
     """Return whether texts have the name of a world's file, or its stem as a value."""
     stem = file.partition(".")[0]
-    names = (file, f'"{stem}"', f"'{stem}'")
+    names = (file,) if stem in _ARGUMENTS else (file, f'"{stem}"', f"'{stem}'")
     lines = chain.from_iterable(_used(text, names).splitlines() for text in texts)
     return any(_BRANCH not in line and any(name in line for name in names) for line in lines)
 

@@ -179,7 +179,7 @@ def _places(
 def _message(link: Link, touched: Box, seen: Box, share: float) -> str:
     name = link.name.value
     expected = (
-        f"{_difference(touched, seen):.0%} of the larger diagonal, expected {share:.0%} or less"
+        f"{_difference(touched, seen):.1%} of the larger diagonal, expected {share:.0%} or less"
     )
     beside = math.dist(touched.centre, seen.centre)
     if beside > math.dist(_size(touched), _size(seen)):

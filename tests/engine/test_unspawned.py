@@ -71,6 +71,7 @@ _YARD = _WORLD.replace("trike", "toys/trike").replace("hall", "yard")
     ("launched", "more", "severity"),
     [
         ("", {}, Severity.WARNING),
+        ("", {"worlds/yard.world": _HALL, "worlds/world.world": _YARD}, Severity.WARNING),
         ("", {"worlds/hall.world": _YARD}, Severity.ERROR),
         ("", {"README.md": "world:=yard.world shows more"}, Severity.ERROR),
         ("", {"scripts/add.py": "NAMES = ['trike']\n"}, Severity.ERROR),
