@@ -63,8 +63,7 @@ def check(
         warning_below: The same ratio; less is a warning, because few bodies have so much of their
             mass near the centre (a solid ball has 0.63).
         share: Share of the robot's mass; a link with no more is often a placeholder: a moment that
-            is too large is an info, and a warning where it is more than all possible moments of the
-            robot; one that is too small is skipped.
+            is too large is an info, or a warning if it exceeds all others; a small one is skipped.
         placeholder: Mass, kg. A link of at most this mass whose mass and moments are powers of ten,
             the moments all equal, was never weighed: a warning.
     """
