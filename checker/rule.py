@@ -123,8 +123,7 @@ def lessened(found: Finding, clause: str, own: Severity = Severity.ERROR) -> Fin
         clause: Why it does, for its message.
         own: The severity of its rule.
     """
-    is_error = (found.severity or own) is Severity.ERROR
-    severity = Severity.WARNING if is_error else Severity.INFO
+    severity = (found.severity or own).weaker
     return replace(found, message=f"{found.message} ({clause})", severity=severity)
 
 

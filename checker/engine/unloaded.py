@@ -8,7 +8,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from checker.finding import Place, Severity
-from checker.rule import Finding, Unchecked
+from checker.rule import Finding, Unchecked, lessened
 
 Said = Finding | Unchecked
 
@@ -61,7 +61,8 @@ def less_of_unloaded(
             if isinstance(item, Unchecked):
                 yield replace(item, severity=Severity.WARNING)
             elif _spot(item) not in known and not (is_one_loaded and _is_parameter(item)):
-                yield _lessened(item, clause, severity)
+                is_info = (item.severity or severity) is Severity.INFO
+                yield item if is_info else lessened(item, clause, severity)
 
 
 def _is_parameter(item: Finding) -> bool:
@@ -71,10 +72,3 @@ def _is_parameter(item: Finding) -> bool:
 
 def _spot(item: Finding) -> tuple[Place, str]:
     return item.places[0], item.message
-
-
-def _lessened(item: Finding, clause: str, severity: Severity) -> Finding:
-    own = item.severity or severity
-    if own is Severity.INFO:
-        return item
-    return replace(item, severity=own.weaker, message=f"{item.message} ({clause})")

@@ -13,7 +13,7 @@ from checker.model.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros_parameters import MANAGER
 from checker.package.package import Package
 from checker.ros.ros2_control.robot_control import ControlReader, RobotControl, runs_manager
-from checker.ros.spawned import EVERY_SPAWN, SpawnedReader
+from checker.ros.spawned import EVERY_SPAWN, SpawnedReader, SpawnedRobot
 from checker.ros.unread import unread_files, unread_parts
 from checker.source.text import Located, Span
 
@@ -160,12 +160,17 @@ class LaunchedControl(Record, eq=False, dict=True):
         return tuple(filter(_is_manager, self.nodes))
 
     @cached_property
+    def _spawned(self) -> tuple[list[SpawnedRobot], list[str]]:
+        """The robots that it spawns, and why others are not among them."""
+        return self.spawned.robots(self.graph, EVERY_SPAWN)
+
+    @cached_property
     def in_gazebo(self) -> tuple[RobotControl, ...]:
         """Those of the robots whose plugin in Gazebo runs a manager.
 
         What it spawns may be of another package; what is not known is a robot of this one.
         """
-        robots, unknown = self.spawned.robots(self.graph, EVERY_SPAWN)
+        robots, unknown = self._spawned
         spawned = [it.control for it in robots if it.control is not None and it.control.managers]
         found = self.controls if unknown or not spawned else spawned
         return tuple(control for control in found if control.managers)
@@ -173,7 +178,7 @@ class LaunchedControl(Record, eq=False, dict=True):
     @cached_property
     def spawns_manager(self) -> bool | None:
         """Whether a plugin of what it spawns runs a controller manager; None if not known."""
-        robots, unknown = self.spawned.robots(self.graph, EVERY_SPAWN)
+        robots, unknown = self._spawned
         plugins = (plugin for spawned in robots for plugin in spawned.robot.plugins)
         return any(map(runs_manager, plugins)) or (None if unknown else False)
 
