@@ -38,6 +38,7 @@ class Suggestions:
         self._known = tuple(dict.fromkeys(known))
         self._found: dict[str, str | None] = {}
         self._sure: dict[str, str | None] = {}
+        self._hints: dict[str, str] = {}
         self._effort = EFFORT
 
     def closest(self, word: str) -> str | None:
@@ -61,8 +62,17 @@ class Suggestions:
 
     def hint(self, word: str) -> str:
         """Return the end of a message: `; did you mean 'wheel'?`, or nothing."""
-        near = self.closest(word)
-        return f"; did you mean {near!r}?" if near else ""
+        if word not in self._hints:
+            near = self.closest(word) or self._longer(word)
+            self._hints[word] = f"; did you mean {near!r}?" if near else ""
+        return self._hints[word]
+
+    def _longer(self, word: str) -> str | None:
+        """Return the one known word that continues another: `claw_joint` for `claw`."""
+        if self._effort < len(self._known):
+            return None
+        longer = [known for known in self._known if known.startswith(f"{word}_")]
+        return longer[0] if len(longer) == 1 else None
 
 
 # Values in a sentence.

@@ -23,7 +23,13 @@ _ON_DRIVE = re.compile(r"(?:file:/{2,3})?[A-Za-z]:[/\\\\]+(.*)", re.DOTALL)
 _AT_HOME = re.compile(
     r"(?:file://)?/(?:(?:home|Users|media|run/media)/[^/]+|root|mnt)/(.*)", re.DOTALL
 )
-_IN_WORKSPACE = re.compile(r"(?:file://)?/(?!opt/ros/)(?:.*/)?(?:src|install|devel)/.*", re.DOTALL)
+_BELOW_HOME = re.compile(r"(?:~|\$HOME|\$\(env HOME\))/(.*)", re.DOTALL)
+"""A path in the home of the user who starts the launch file."""
+_IN_WORKSPACE = re.compile(
+    rf"(?:file://|{_BELOW_HOME.pattern.partition('/')[0]})?"
+    r"/(?!opt/ros/)(?:.*/)?(?:src|install|devel)/.*",
+    re.DOTALL,
+)
 _INSTALLED = re.compile(
     r"(?:file://)?/(?:.*/)?(?:install(?:/[^/]+)?|devel|opt/ros/\w+)/share/([^/]+)/(.+)", re.DOTALL
 )
@@ -36,6 +42,8 @@ _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
 _MODEL = "model://"
+_LONGEST = 1_000
+"""Characters of a path; systems have 4,096 at most."""
 
 
 class Unknown(Record):
@@ -98,14 +106,14 @@ def _on_path(package: Package, folder: str, path: str) -> str:
 def own_path_on_machine(package: Package, uri: str) -> str:
     """Return the path in the package that ends a path on its author's machine; empty without one.
 
-    That is a path on a drive of Windows, `D:/work/arm/a.stl`, in a home, `/home/me/arm/a.stl`, or
-    a placeholder, `/path/to/arm/a.stl`.
+    That is a path on a drive of Windows, `D:/work/arm/a.stl`, in a home, `/home/me/arm/a.stl` or
+    `~/arm/a.stl`, or a placeholder, `/path/to/arm/a.stl`.
     A path in the folder of an installation names its package, which may be another one.
     """
     installed = _INSTALLED.fullmatch(uri)
     if installed and installed[1] not in (package.name, package.declared_name):
         return ""
-    forms = (_ON_DRIVE, _AT_HOME, _PLACEHOLDER)
+    forms = (_ON_DRIVE, _AT_HOME, _BELOW_HOME, _PLACEHOLDER)
     on_machine = next(filter(None, (form.fullmatch(uri) for form in forms)), None)
     path = on_machine[1].replace("\\", "/") if on_machine else ""
     while path and not package.exists(path):
@@ -113,10 +121,28 @@ def own_path_on_machine(package: Package, uri: str) -> str:
     return path
 
 
+def uri_of_machine(package: Package, path: str) -> str:
+    """Return the `package://` of a path on its author's machine that names the file's package.
+
+    Empty if none of the packages that are available has it.
+    """
+    folders = path[:_LONGEST].split("/")
+    for number, name in enumerate(folders):
+        holder, inside = package.named(name), "/".join(folders[number + 1 :])
+        if holder is not None and inside and holder.exists(inside):
+            return f"package://{name}/{inside}"
+    return ""
+
+
 def is_on_one_machine(path: str) -> bool:
     """Return whether a path or URI is in a home, on a drive of Windows, or in a built workspace."""
     text = path.strip()
     return any(it.fullmatch(text) for it in (_ON_DRIVE, _AT_HOME, _IN_WORKSPACE))
+
+
+def is_below_home(path: str) -> bool:
+    """Return whether a path is in the home of the user who starts the launch file."""
+    return _BELOW_HOME.fullmatch(path.strip()) is not None
 
 
 def is_placeholder(path: str) -> bool:

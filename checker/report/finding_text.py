@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from collections.abc import Iterator, Sequence
 
 from checker.base.words import count, plain, shortened
@@ -16,6 +17,9 @@ MORE_PLACES = 3
 
 MESSAGE_LIMIT = 600
 SNIPPET_WIDTH = 160
+_ELEMENT = re.compile(r"<(\w+)>[^<>]*</\1>")
+_FIRST = 2
+"""So many elements are shown of those that are too long together."""
 
 
 def finding_text(
@@ -52,19 +56,27 @@ def finding_text(
 
 
 def _what_to_write(finding: ReportedFinding, package: PackageReport) -> str:
-    """Return the lines as the fix writes them, and where if in another file; empty if long."""
+    """Return the lines as the fix writes them, and where if in another file; empty if long.
+
+    Of many whole elements, such as dependencies, the first ones are shown.
+    """
     lines = list(corrected_lines(finding.fix)) if finding.fix else []
     files = {it.file for it in lines}
     if len(files) != 1 or not all(it.is_line and it.after for it in lines):
         return ""
+    parts = [part.strip() for it in lines for part in it.after.split("\n")]
     texts = (" ".join(part.strip() for part in it.after.split("\n")) for it in lines)
     text = plain(" ".join(dict.fromkeys(texts)))
+    more = ""
+    if len(text) > SNIPPET_WIDTH and all(map(_ELEMENT.fullmatch, parts)):
+        text, left = plain(" ".join(parts[:_FIRST])), len(parts) - _FIRST
+        more = f" and {count(left, 'more line')}" if left > 0 else ""
     if "\n" in text or len(text) > SNIPPET_WIDTH:
         return ""
     if files == {finding.places[0].file}:
-        return f"`{text}`"
+        return f"`{text}`{more}"
     place = Place(lines[0].file, lines[0].line)
-    return f"`{text}` at {where_text(place, package)}"
+    return f"`{text}`{more} at {where_text(place, package)}"
 
 
 def path_of(place: Place, package: PackageReport) -> str:

@@ -20,7 +20,18 @@ from checker.package.package import Package
 from checker.package.uris import is_on_one_machine
 from checker.ros.ros2_control.robot_control import GazeboManager, ParametersFile, PluginFiles
 from checker.ros.spawned_files import SpawnedFiles
-from checker.rule import Concern, Finding, Findings, Severity, finding, lessened, rule, unchecked
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    lessened,
+    replace_text,
+    rule,
+    unchecked,
+)
 from checker.rulebook.example_parts import GAZEBO, gazebo_control, ros2_control
 
 _TAG = "<parameters>"
@@ -82,11 +93,17 @@ def _on_one_machine(file: ParametersFile, package: Package) -> Finding:
     absent = file.path is not None and not file.exists
     container = container_with(package, file.text.value) if not absent else ""
     where = f"in the container of {container}" if container else "on its author's machine"
+    near = ""
+    if file.path is not None and file.exists:
+        near = f"$(find {file.package})/{resolve_listed(package, file.path)[1]}"
+    is_xacro = file.text.span.source.file.endswith(".xacro")
+    expanded = "" if is_xacro else " in a xacro file, and expand that at launch"
     return finding(
         file.text,
-        f"{file.text.value} is {where}, and Gazebo finds it nowhere else: write $(find PACKAGE)/… "
-        "in a xacro file, and expand that at launch",
+        f"{file.text.value} is {where}, and Gazebo finds it nowhere else: write "
+        f"{near or '$(find PACKAGE)/…'}{expanded}",
         severity=Severity.WARNING if container else None,
+        fix=replace_text(file.text, near, Safety.UNSAFE) if near and is_xacro else None,
     )
 
 
@@ -148,6 +165,7 @@ def _model(parameters: str) -> dict[str, object]:
 
 _MARK = "  <!-- ^ R2C006 -->"
 _HERE = "$(find acme_arm_description)/config/control.yaml"
+_OWN = "acme_arm_description/config/arm.yaml"
 _SELDOM = "$(find other_arm)/config"
 _BUILD = """project(acme_arm_description)
 install(DIRECTORY config/other urdf DESTINATION share/${PROJECT_NAME}/config)
@@ -203,6 +221,14 @@ BAD = [
     _arm(f"<parameters>{_HERE}/</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/control.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>/home/ann/ws/install/share/arm/control.yaml</parameters>{_MARK}"),
+    {
+        "@urdf": "",
+        "urdf/arm.urdf": None,
+        "urdf/arm.urdf.xacro": _GIVEN.replace("%", "").replace(
+            "$(arg control_file)</parameters>", f"/home/ann/ws/src/{_OWN}</parameters>{_MARK}"
+        ),
+        "config/arm.yaml": "controller_manager:\n  ros__parameters: {}\n",
+    },
     # A warning: the container has it.
     {
         **_arm(f"<parameters>/ws/install/arm/share/arm/config/control.yaml</parameters>{_MARK}"),

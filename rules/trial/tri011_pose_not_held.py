@@ -9,8 +9,9 @@ Source: experience; a position and velocity controller holds each joint.
 
 import math
 
+from checker.model.locomotion.balancing import NOT_RUN
 from checker.physics.trial.robot_trial import SettledTrial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, Unchecked, finding, rule
 
 
 @rule(
@@ -37,6 +38,9 @@ def check(
         hold_tilt_above: Radians between the robot's z axis and the vertical at the end of the hold;
             more is reported.
     """
+    if driven.robot.balances:
+        yield Unchecked(NOT_RUN, Severity.WARNING)
+        return
     for sag in driven.trial.all("hold_sag"):
         if abs(sag.value) > hold_sag_above:
             yield finding(

@@ -2,7 +2,8 @@
 
 On every other machine the node does not find the file: the map server has no map, the navigator no
 behaviour tree. A path in a home, such as `/home/me/maps/hall.yaml`, on a drive of Windows, or in
-the folders of a workspace is reported in a parameter file, if it is that of a file. The name of a
+the folders of a workspace, such as `~/ros2_ws/src`, is reported in a parameter file, if it is that
+of a file. The name of a
 parameter such as `output_file` says that the node writes it. Where a launch file names the
 parameter, it may replace the value: this is an info. Below the `WORKDIR` of a Dockerfile, the path
 works in its container alone. The placeholder of a template, `/path/to/your/arm.urdf`, is on no
@@ -28,7 +29,12 @@ from checker.launch.ros2.named_paths import is_written
 from checker.launch.ros2.package_launch import is_ros2_only
 from checker.package.containers import container_with
 from checker.package.package import Package
-from checker.package.uris import is_on_one_machine, is_placeholder, own_path_on_machine
+from checker.package.uris import (
+    is_below_home,
+    is_on_one_machine,
+    is_placeholder,
+    own_path_on_machine,
+)
 from checker.ros.wiring.parameters import blocks_in
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, Span
@@ -81,6 +87,10 @@ def _written_part(text: Located[str]) -> Located[str] | None:
     if text.value in text.span.text:
         return text
     source = text.span.source
+    if is_below_home(text.value):
+        inside = text.value.partition("/")[2]
+        start = source.text.find(inside)
+        return text if start < 0 else Located(inside, Span(source, start, start + len(inside)))
     for found in _FOLDER.finditer(source.text):
         if text.value == found[1] or text.value.startswith(f"{found[1].rstrip('/')}/"):
             return Located(found[1], Span(source, *found.span(1)))
@@ -179,7 +189,7 @@ def _in_launch_file(
     else:
         here = f"$({'find-pkg-share' if is_ros2_only(package) else 'find'} {name})/{own}"
     cure = f"write {here}" if own else ""
-    fails = stops and not container_with(package, text.value)
+    fails = stops and not (is_below_home(text.value) or container_with(package, text.value))
     severity = Severity.ERROR if fails else None
     return _finding(package, label, Located(text.value, place), cure, severity)
 
@@ -201,20 +211,23 @@ def _finding(
     cure: str,
     severity: Severity | None = None,
 ) -> Finding:
-    container = container_with(package, text.value)
-    where = (
-        "a placeholder that no machine has"
-        if is_placeholder(text.value)
-        else "on its author's machine, and is found on no other"
-    )
     return finding(
         text,
-        f"{label} is {text.value}, "
-        f"{f'found only in the container of {container}' if container else where}: "
+        f"{label} is {text.value}, {_where(package, text.value)}: "
         f"{cure or 'install the file with a package'}",
         severity=severity,
         key=text.value,
     )
+
+
+def _where(package: Package, path: str) -> str:
+    if is_placeholder(path):
+        return "a placeholder that no machine has"
+    if container := container_with(package, path):
+        return f"found only in the container of {container}"
+    if is_below_home(path):
+        return "found only where the workspace has this name"
+    return "on its author's machine, and is found on no other"
 
 
 def _example(value: str, mark: str = "", name: str = "yaml_filename") -> dict[str, object]:
@@ -234,6 +247,7 @@ _MARK = "  # ^ WIR014"
 GOOD = [
     _launched('<arg name="map" default="$(find acme_arm_description)/maps/hall.yaml"/>'),
     _launched('<arg name="output_file" default="/home/ann/run.csv"/>'),
+    _launched('<arg name="map" default="$(env HOME)/maps/hall.yaml"/>'),
     _launched('<node name="log" pkg="rosbag" type="record" args="-O /home/ann/run.bag"/>'),
     {"@ros2": "        DeclareLaunchArgument('map', default_value='/opt/maps/hall.yaml'),"},
     _example("$(find-pkg-share acme_rover_bringup)/maps/hall.yaml"),
@@ -264,6 +278,18 @@ def generate_launch_description():
     node = Node(package="arm_sim", executable="sim", parameters=[{"robot_description": text}])
     return LaunchDescription([node])
 """
+_BELOW_HOME = """import os
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    path = os.path.join(os.getenv("HOME"), "ros2_ws/src/arm/urdf/arm.urdf")  # ^ WIR014
+    with open(path) as file:
+        text = file.read()
+    node = Node(package="arm_sim", executable="sim", parameters=[{"robot_description": text}])
+    return LaunchDescription([node])
+"""
 _FOLDERS = """from launch import LaunchDescription
 from launch.actions import SetEnvironmentVariable
 
@@ -277,6 +303,14 @@ BAD = [
     {"@ros2": True, "launch/sim.launch.py": _FOLDERS},
     {"@ros2": True, "launch/sim.launch.py": _JOINED},
     {"@ros2": True, "launch/sim.launch.py": _OPENED},
+    {"@ros2": True, "launch/sim.launch.py": _BELOW_HOME},
+    {
+        "@ros2": True,
+        "launch/sim.launch.py": _BELOW_HOME.replace(
+            """os.path.join(os.getenv("HOME"), "ros2_ws""", 'os.path.expanduser("~/ros2_ws'
+        ),
+    },
+    _launched(f'<arg name="map" default="$(env HOME)/ws/src/arm/a.yaml"/>{_OF_ROS_1}'),
     {
         "@ros2": "        ExecuteProcess(cmd=['gzserver', '/home/ann/ws/src/arm/hall.world']),"
         "  # ^ WIR014"

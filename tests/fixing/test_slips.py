@@ -34,3 +34,11 @@ def test_the_only_wheel_that_there_is_may_still_be_another_one() -> None:
 
 def test_of_two_that_are_as_near_none_is_written() -> None:
     assert Suggestions(["wheel_a", "wheel_b"]).correction("wheel_") is None
+
+
+def test_hint_names_the_one_longer_name() -> None:
+    """The end of a name is often left out; where several names continue it, none is meant."""
+    joints = Suggestions(["claw_joint", "arm_joint", "arm_link_joint"])
+    assert joints.hint("claw") == "; did you mean 'claw_joint'?"
+    assert joints.hint("arm") == ""
+    assert joints.correction("claw") is None

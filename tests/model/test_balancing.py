@@ -9,13 +9,18 @@ from tests.model.robots import urdf
 _TYRE = '<geometry><cylinder radius="0.1" length="0.04"/></geometry>'
 
 
-def _on_wheels(low: str, *, behind: float = 0.0, high: float = 0.2) -> bool:
+_DRIVE = """<gazebo><plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+<left_joint>left_axle</left_joint><right_joint>right_axle</right_joint></plugin></gazebo>"""
+
+
+def _on_wheels(low: str, *, behind: float = 0.0, high: float = 0.2, drive: str = _DRIVE) -> bool:
     """Return whether a body on two wheels balances.
 
     Args:
         low: What else is at its lower end, in a link of its own.
         behind: Metres from the left wheel's axle to the right one's.
         high: Height of the body's middle above the axles, metres.
+        drive: What turns the wheels.
     """
     wheels = "".join(
         f"""<link name="{side}_wheel">
@@ -29,8 +34,7 @@ def _on_wheels(low: str, *, behind: float = 0.0, high: float = 0.2) -> bool:
 </link>{wheels}<link name="low">{low}</link>
 <joint name="low_joint" type="fixed"><parent link="base_link"/><child link="low"/>
 <origin xyz="0.2 0 -0.08"/></joint>
-<gazebo><plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-<left_joint>left_axle</left_joint><right_joint>right_axle</right_joint></plugin></gazebo>""").balances
+{drive}""").balances
 
 
 _BALL = '<geometry><sphere radius="{}"/></geometry>'
@@ -61,6 +65,11 @@ _BALL = '<geometry><sphere radius="{}"/></geometry>'
 )
 def test_a_robot_balances_on_one_axle_alone(low: str, balances: bool) -> None:
     assert _on_wheels(low) is balances
+
+
+def test_a_robot_balances_on_wheels_that_no_plugin_of_a_drive_turns() -> None:
+    """A controller may set the torque of each wheel by itself."""
+    assert _on_wheels("", drive="")
 
 
 def test_wheels_behind_one_another_do_not_make_an_axle() -> None:

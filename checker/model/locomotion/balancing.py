@@ -41,7 +41,7 @@ def balances(robot: Robot) -> bool:
     on_legs = len(free) == 2 and robot.tree.base.isdisjoint(parents)
     named = _NAMED.search(robot.name.value) is not None
     driven = robot.locomotion.wheels
-    return named or (on_legs and not driven) or _on_one_axle(robot, driven)
+    return named or (on_legs and not driven) or _on_one_axle(robot, driven or free)
 
 
 def _on_one_axle(robot: Robot, wheels: tuple[Wheel, ...]) -> bool:

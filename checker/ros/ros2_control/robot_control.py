@@ -25,7 +25,7 @@ from checker.model.ros_parameters import (
     refused_value,
 )
 from checker.package.package import Package
-from checker.package.uris import uri_of_installed
+from checker.package.uris import is_on_one_machine, uri_of_installed, uri_of_machine
 from checker.ros.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
 from checker.source.text import Located, SourceText, Span
 
@@ -236,7 +236,10 @@ class ControlReader:
 
     def _parameters_file(self, text: Located[str]) -> ParametersFile:
         stated = text.value.strip()
-        path = _FIND.sub(rf"{ROOT}/\1", uri_of_installed(stated) or stated)
+        uri = uri_of_installed(stated)
+        if not uri and is_on_one_machine(stated):
+            uri = uri_of_machine(self.package, stated)
+        path = _FIND.sub(rf"{ROOT}/\1", uri or stated)
         path = re.sub(r"\Apackage://(?!/)", f"{ROOT}/", path).removeprefix("file://")
         local = local_path(self.package, path)
         # A file with a slash behind its name is not found: only a folder may have one.
