@@ -24,6 +24,7 @@ from checker.base.words import shortened
 from checker.engine.report_cache import memory_key, recall_report, remember
 from checker.finding import Safety
 from checker.package.inputs import Opened, open_input, with_package_path
+from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.report.report import (
     NotOpened,
@@ -145,10 +146,11 @@ def tasks_of(
     return sorted(tasks.values(), key=_order)
 
 
-def _order(task: Task) -> tuple[bool, str, bool]:
-    """Return a sort key: packages of copied repositories are last."""
+def _order(task: Task) -> tuple[bool, bool, str, bool]:
+    """Return a sort key: models come behind packages, those of copied repositories last."""
     copied = task.package is not None and bool(task.package.vendored_in)
-    return copied, task.display_path, bool(task.result)
+    model = task.package is not None and task.package.kind is PackageKind.BASE_MODEL
+    return copied, model, task.display_path, bool(task.result)
 
 
 def _tasks_at(task: Task) -> Iterator[Task]:
@@ -328,5 +330,5 @@ def join_reports(done: Iterable[Checked]) -> Report:
             not_opened[result] = None
         else:
             packages.setdefault((Path(result.path).resolve(), result.name), result)
-    ordered = sorted(packages.values(), key=lambda it: (bool(it.vendored), it.path, it.name))
+    ordered = sorted(packages.values(), key=lambda it: (*it.lateness, it.path, it.name))
     return Report(tuple(ordered), versions(), tuple(not_opened))

@@ -35,6 +35,10 @@ MADE = """<model><name>Wood</name><version>1.0</version>
 <author><name>A</name><email>a@example.org</email></author><description>Trees</description>
 <sdf version="1.6">made.sdf</sdf></model>
 """
+TWICE_HELD = """{}<link name="shelf"/><link name="board"/>
+<joint name="left" type="fixed"><parent>base_link</parent><child>board</child></joint>
+<joint name="right" type="fixed"><parent>shelf</parent><child>board</child></joint>
+"""
 STAGE = """<sdf version="1.9"><world name="stage">
   <plugin filename="gz-sim-user-commands-system" name="gz::sim::systems::UserCommands"/>
   <plugin filename="gz-sim-scene-broadcaster-system" name="gz::sim::systems::SceneBroadcaster"/>
@@ -497,6 +501,7 @@ CASES: list[tuple[str, Example, str]] = [
     ("KIN008", {"@urdf": HUNG}, "error"),
     ("KIN008", {"@urdf": HUNG, **ONLY_SHOWN}, "warning"),
     ("LCH004", {"@ros2": "Node(package='p', node_executable='e', node_name='n'),"}, "error"),
+    ("KIN002", TWICE_HELD.format("<static>true</static>"), "info"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
     ("GEO003", DRAWN_WHEEL, "warning"),
@@ -608,6 +613,7 @@ def test_severity_depends_on_the_case(
         ("SDF005", UNCOLOURED, "warning", "error"),
         ("SDF006", SUN, "warning", "error"),
         ("INE002", COARSE, "warning", "error"),
+        ("KIN002", TWICE_HELD.format(""), "info", "error"),
     ],
 )
 def test_classic_neither_renames_nor_refuses(

@@ -48,7 +48,8 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     """Read what a package is made for; else what launches it, or it launches, is made for.
 
     Where neither shows a target, what is beside it may, then the scripts around it, that it starts
-    Gazebo Classic beside a later one, and last that those beside it are made for one target.
+    Gazebo Classic beside a later one, and last that those beside it are made for one target. A
+    package that shows its distribution and no simulator is for Classic where those beside it are.
 
     Args:
         package: A package of ROS 2.
@@ -56,7 +57,7 @@ def detect_target(package: Package, distro: str = "") -> DetectedTarget:
     """
     own = _shown_target(package, distro)
     if own.reason:
-        return own
+        return own if own.is_classic else _classic_beside(package, own.distro) or own
     found = _targets_of(launching(package), distro, "which launches it")
     found = found or _targets_of(launched_by(package), distro, "which it launches")
     if not found and not own.distro:
@@ -117,14 +118,26 @@ def _target_around(package: Package) -> DetectedTarget | None:
     return DetectedTarget(False, known, f"ROS 2 {distro.capitalize()}: {words}")
 
 
+def _classic_beside(package: Package, distro: str) -> DetectedTarget | None:
+    """Return Classic, where it is the one simulator of the packages beside one without any."""
+    others = () if package.only or package.simulator_signs else package.other_packages
+    if any({*other.simulator_signs} - {CLASSIC} for other in others):
+        return None
+    found = _targets_of(others, distro, "beside it")
+    return next((it for alike in found.values() for it in alike if it.is_classic), None)
+
+
 def _common_target(package: Package) -> DetectedTarget | None:
     """Return the target of the packages beside a package: two show one, and none another.
 
-    One alone may be of others, and brought along.
+    One alone may be of others, and brought along, unless its name begins like the package's.
     """
-    found = _targets_of(() if package.only else package.other_packages, "", "beside it")
+    others = () if package.only else package.other_packages
+    found = _targets_of(others, "", "beside it")
     alike = next(iter(found.values())) if len(found) == 1 else []
-    return alike[0] if len(alike) > 1 else None
+    family = f"{package.declared_name.partition('_')[0]}_"
+    kin = (other for other in others if other.declared_name.startswith(family))
+    return alike[0] if alike and (len(alike) > 1 or _targets_of(kin, "", "")) else None
 
 
 def launching(package: Package) -> Iterator[Package]:

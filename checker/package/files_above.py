@@ -19,8 +19,8 @@ from checker.source.text import SourceText
 if TYPE_CHECKING:
     from checker.package.package import Package
 
-README = re.compile(r"\A(?:\.\./)*readme(?:\.\w{1,8})?\Z")
-"""Paths in lower case of README files of a package and above it."""
+README = re.compile(r"\A(?:\.\./)*readme(?:[._-][a-z]{2}(?:[_-][a-z]{2,4})?)?(?:\.\w{1,8})?\Z")
+"""Paths in lower case of README files of a package and above it, also `readme_zh.md`."""
 _LEVELS = 8
 _FENCE_OR_COMMENT = re.compile(
     r"^ {0,3}(?P<fence>```|~~~).*?(?:^ {0,3}(?P=fence)|\Z)|<!--.*?-->",

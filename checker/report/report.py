@@ -11,6 +11,7 @@ from msgspec import field
 from checker.base.extras import PHYSICS
 from checker.base.record import Record
 from checker.finding import Concern, Fix, Place, Severity
+from checker.package.kind import PackageKind
 from checker.report.launched import Launched
 
 SCHEMA_VERSION: Final = "1"
@@ -259,6 +260,11 @@ class PackageReport(Record):
     vendored: str = ""
 
     @property
+    def lateness(self) -> tuple[bool, bool]:
+        """A sort key: models come behind packages, those of copied repositories last."""
+        return bool(self.vendored), self.kind == PackageKind.BASE_MODEL
+
+    @property
     def verdict(self) -> VerdictKind:
         """Verdict for the package."""
         concerns = {finding.concern for finding in self.errors}
@@ -313,7 +319,7 @@ class NotOpened(Record):
 
 
 class Report(Record):
-    """The reports of all packages of one run, sorted by name, copied repositories last."""
+    """The reports of all packages of one run: packages, models, then copied repositories."""
 
     packages: tuple[PackageReport, ...]
     versions: Mapping[str, str]

@@ -219,7 +219,7 @@ def _first_of_all(report: Report, settings: RenderSettings) -> str:
                 first.setdefault(found.rule, (found, package))
     if len(report.packages) <= FIRST or not first:
         return ""
-    errors = sorted(first.values(), key=lambda pair: (bool(pair[1].vendored), *importance(pair[0])))
+    errors = sorted(first.values(), key=lambda pair: (*pair[1].lateness, *importance(pair[0])))
     lines = (next(finding_text(*pair, settings, explained=True)) for pair in errors[:FIRST])
     head = settings.palette.bold("Do first in all packages:")
     return "".join(f"{line}\n" for line in (head, *lines))

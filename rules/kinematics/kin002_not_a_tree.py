@@ -4,7 +4,8 @@ Simulators place each link by the one joint above it. If a link has a second joi
 reports that the link already has a parent and drops the joint. A loop has no root link. RViz and
 robot_state_publisher read the file: for them the joint written last is the one above the link, and
 the transforms of the others are wrong or missing; so where no simulator is started, a second parent
-is a warning. No accepted package that we checked has this fault.
+is a warning. Gazebo Classic simulates both in models of SDF, and nothing moves in a static model:
+there they are infos. No accepted package that we checked has this fault.
 
 Fix: remove the extra joint, or swap its parent and child. Where each joint is an axis of one link,
 as of an eye that turns and nods, put a link between them: parent, axis, link, axis, child.
@@ -28,10 +29,19 @@ def check(robot: Robot, context: Context) -> Findings:
             yield finding(
                 tie.joint, f"joint {tie.joint.name.value!r} connects {tie.child!r} to itself"
             )
-    # A file that is made for no simulator may hold loops: SDFormat itself allows them.
-    severity = None if context.release else Severity.WARNING
-    yield from _second_parents(robot.tree, Severity.WARNING if robot.shown_only else severity)
+    severity = _severity(robot, context)
+    is_shown = robot.shown_only and severity is None
+    yield from _second_parents(robot.tree, Severity.WARNING if is_shown else severity)
     yield from _loops(robot.tree, severity)
+
+
+def _severity(robot: Robot, context: Context) -> Severity | None:
+    """Return the severity of what only a simulator with trees of bodies refuses."""
+    of_classic = context.release == "classic" and not robot.conventions.is_urdf
+    if robot.is_static or of_classic:
+        return Severity.INFO
+    # A file that is made for no simulator may hold loops: SDFormat itself allows them.
+    return None if context.release else Severity.WARNING
 
 
 def _second_parents(tree: LinkTree, severity: Severity | None) -> Iterator[Finding]:

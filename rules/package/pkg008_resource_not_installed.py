@@ -250,8 +250,12 @@ def _destination(install: Install) -> str:
 
 
 def _installed_paths(build: CMakeFile) -> set[str]:
-    """Return the paths that are installed, without slashes at the end; empty for all."""
-    return set(_paths(build))
+    """Return the paths that are installed, without slashes at the end; empty for all.
+
+    What another CMakeLists.txt in a folder installs is not known: the folder counts.
+    """
+    added = (call.arguments[:1] for call in build.calls_of("add_subdirectory"))
+    return {*_paths(build), *(name.value.rstrip("/") for names in added for name in names)}
 
 
 def _paths(build: CMakeFile) -> Iterator[str]:
@@ -288,6 +292,13 @@ GOOD = [
         "setup.py": _SETUP.replace("  # ^ PKG008", "").replace("*/*.none", "*/*"),
     },
     {"meshes/a.dae": "<COLLADA/>", "CMakeLists.txt": "install(DIRECTORY . DESTINATION share)\n"},
+    {
+        "meshes/a.dae": "<COLLADA/>",
+        "meshes/CMakeLists.txt": "install(FILES a.dae DESTINATION share/${PROJECT_NAME}/meshes)\n",
+        "CMakeLists.txt": "add_subdirectory(meshes)\n"
+        "install(DIRECTORY launch urdf worlds thumbnails DESTINATION share)\n"
+        "install(FILES model.sdf model.config DESTINATION share)\n",
+    },
     # An empty folder.
     {
         "worlds/example.sdf": None,

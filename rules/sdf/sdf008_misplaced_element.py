@@ -81,7 +81,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         of_others = bool(places) and not listed
         harmless = is_set or usual or of_others or path[1:] in HARMLESS
         idle = is_unread(element.tag, context.release) or is_appearance(element)
-        grave = not {*listed, parent.tag}.isdisjoint(GRAVE_PARENTS) or element.tag == "gravity"
+        meant = listed if len(listed) == 1 else ()  # of several places none is certain
+        grave = not {*meant, parent.tag}.isdisjoint(GRAVE_PARENTS) or element.tag == "gravity"
         least = Severity.INFO if usual and not context.is_subt else Severity.WARNING
         yield finding(
             element,

@@ -9,6 +9,7 @@ Source: experience; a position and velocity controller holds each joint.
 
 import math
 
+from checker.base.words import beyond
 from checker.model.locomotion.balancing import NOT_RUN
 from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, Unchecked, finding, rule
@@ -53,10 +54,12 @@ def check(
     symptoms = {}
     sink, tilt = driven.trial.value("hold_sink"), driven.trial.value("hold_tilt")
     if sink is not None and sink > hold_sink_above:
-        symptoms["hold_sink"] = f"sinks by {sink:.2g} m (at most {hold_sink_above:g} m)"
+        by = beyond(sink, hold_sink_above)
+        symptoms["hold_sink"] = f"sinks by {by} m (at most {hold_sink_above:g} m)"
     if tilt is not None and tilt > hold_tilt_above:
-        limit = math.degrees(hold_tilt_above)
-        symptoms["hold_tilt"] = f"tilts by {math.degrees(tilt):.0f}° (at most {limit:.0f}°)"
+        limit = round(math.degrees(hold_tilt_above), 1)
+        by = beyond(math.degrees(tilt), limit)
+        symptoms["hold_tilt"] = f"tilts by {by}° (at most {limit:g}°)"
     if symptoms:
         yield finding(
             driven.robot,

@@ -5,7 +5,8 @@ not one of the elements for links is copied into the `<link>` of the SDF. `<surf
 and `<mu>` are not read there: the wheel keeps the default friction of 1, and the rollers of a
 mecanum wheel do not slip.
 
-Fix: write the element that the message names, such as `<mu1>` and `<mu2>` for friction.
+Fix: write the element that the message names, such as `<mu1>` and `<mu2>` for friction, or remove
+the one that nothing reads.
 Source: sdformat, parser_urdf.cc, and SDFormat specification, link and joint; conversions of such
 tags by libsdformat 12.
 """
@@ -24,10 +25,11 @@ _ADVICE: Mapping[str, str] = {
     "surface": "put it into a <collision> there, or write <mu1> and <mu2>",
     "friction": "write <mu1> and <mu2>",
     "mu": "write <mu1>",
-    "static": "write it in a <gazebo> without reference: it is about the whole model",
+    "static": "a <gazebo> without reference makes the whole model static",
     "damping": "write <dynamics damping=…/> in the joint",
     "initial_position": "give it to the controller, or to the hardware of ros2_control",
 }
+_WORLD = "world"
 _VERSION = "1.7"
 """The version of SDF where none is stated; the content of a link has hardly changed."""
 
@@ -54,6 +56,8 @@ def _unread(tag: GazeboTag, robot: Robot, version: str) -> Iterator[Finding]:
         if child.tag in known or child.tag in checked_elsewhere or ":" in child.tag:
             continue
         advice = _ADVICE.get(child.tag, "")
+        if child.tag == "static" and _WORLD in robot.links_by_name:
+            advice = f"remove it: the link {_WORLD} holds the robot"
         hint = f": {advice}" if advice else Suggestions(sorted(known)).hint(child.tag)
         yield finding(
             child,
