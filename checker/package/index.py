@@ -104,8 +104,9 @@ class FileIndex(Record, eq=False, dict=True):
 
     @cached_property
     def files(self) -> tuple[FileEntry, ...]:
-        """Everything that can be read as a file."""
-        return tuple(entry for entry in self.entries.values() if entry.is_file)
+        """Everything that can be read as a file; not what editors keep in hidden folders."""
+        files = (entry for entry in self.entries.values() if entry.is_file)
+        return tuple(entry for entry in files if not is_hidden(entry.path))
 
     @cached_property
     def links(self) -> tuple[FileEntry, ...]:
@@ -152,6 +153,16 @@ def _stem(path: str) -> str:
 def is_of_tests(path: str) -> bool:
     """Return whether a path is in a folder of tests."""
     return not {"test", "tests"}.isdisjoint(path.split("/")[:-1])
+
+
+_OF_BUILDS = {".devcontainer", ".docker", ".github", ".gitlab", ".vscode"}
+"""Hidden folders whose files say how a package is built, and for which distribution."""
+
+
+def is_hidden(path: str) -> bool:
+    """Return whether a path is in a hidden folder, such as `.history` of an editor."""
+    folders = path.split("/")[:-1]
+    return any(it.startswith(".") and it not in _OF_BUILDS for it in folders)
 
 
 _RETIRED = {"old", "past", "backup", "archive", "archived", "deprecated", "unused", "obsolete"}

@@ -52,6 +52,20 @@ def test_git_is_skipped_and_junk_is_not(rover: Path) -> None:
     assert ".git" not in paths
 
 
+def test_what_an_editor_keeps_in_a_hidden_folder_is_no_file_of_the_robot(write: Write) -> None:
+    kept = (
+        "models/.history/arm_1.xml",
+        "robot/.idea/a.yaml",
+        ".github/workflows/ci.yml",
+        "arm.xml",
+    )
+    index = package_at(
+        write({"rover/model.sdf": MODEL} | {f"rover/{it}": "x" for it in kept}) / "rover"
+    ).index
+    assert [it.path for it in index.files] == [".github/workflows/ci.yml", "arm.xml", "model.sdf"]
+    assert index.find("models/.history/arm_1.xml")
+
+
 @pytest.mark.parametrize(
     ("target", "state", "readable"),
     [
