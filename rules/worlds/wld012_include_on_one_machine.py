@@ -1,7 +1,8 @@
 """A world includes a model by a path on the machine of its author.
 
 `<uri>file:///home/me/models/rover</uri>` leads nowhere on every other machine: Gazebo prints an
-error, and the world has no such model. Where the model is the robot, there is nothing to simulate.
+error, and the world has no such model, even where the workspace contains one of that name. Where
+the model is the robot, there is nothing to simulate.
 Below the `WORKDIR` of a Dockerfile it is a warning: the model is in its container alone.
 
 Fix: write `model://` and the name of the model, and put the folder of the models on Gazebo's search
@@ -22,14 +23,15 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 @rule("WLD012", "include-on-one-machine", Severity.ERROR, Concern.PORTABILITY)
 def check(world: World, package: Package) -> Findings:
     """Report includes whose path is in a home, on a drive, or in a built workspace."""
-    for uri in world.unknown:
+    uris = (placed.child("uri") for placed in world.element.all("include"))
+    for uri in (element.text for element in uris if element is not None):
         if is_on_one_machine(uri.value):
             container = container_with(package, uri.value)
             where = f"in the container of {container}" if container else "on its author's machine"
             yield finding(
                 uri,
-                f"{uri.value} is {where}, and the world has no such model elsewhere: write "
-                f"model://{_model_in(uri.value)}",
+                f"{uri.value.strip()} is {where}, and the world has no such model elsewhere: write "
+                f"model://{_model_in(uri.value.strip())}",
                 severity=Severity.WARNING if container else None,
             )
 
@@ -58,6 +60,11 @@ GOOD = [_world("model://rover"), _world("https://fuel.gazebosim.org/1.0/acme/mod
 BAD = [
     _world("file:///home/ann/models/rover", _MARK),
     _world("file:///home/ann/.gz/fuel/fuel.gazebosim.org/acme/models/rover/5", _MARK),
+    {
+        **_world("file:///home/ann/ws/install/acme_hall/share/acme_hall/models/crate", _MARK),
+        "@name": "acme_hall",
+        "models/crate/model.sdf": '<sdf version="1.9"><model name="crate"/></sdf>',
+    },
     {
         **_world("file:///home/ann/ws/models/rover", _MARK),
         "Dockerfile": "FROM ros:jazzy\nWORKDIR /home/ann/ws\n",
