@@ -6,7 +6,8 @@ frame of its data moves slightly. If a plugin drives the joint, this is an error
 not turn is dragged along. In URDF, a joint written as fixed is a warning: Gazebo merges its links,
 and the plugin finds no joint.
 
-A driven wheel whose limits end after a few turns also stops there, and so does the robot.
+A driven wheel whose limits end after a few turns also stops there, and so does the robot. Limits of
+a continuous joint of URDF stop nothing: its readers ignore them (URD029).
 
 Fix: write `type="fixed"` and remove the axis with its limits; Gazebo keeps the sensors of the link
 and its frame, and the link itself if `<gazebo reference="…">` of the joint says
@@ -109,8 +110,29 @@ _WHEELS = """
   <left_joint>mast_joint</left_joint>
 </plugin>
 """
+
+
+def _rolling(kind: str, mark: str = "") -> dict[str, str]:
+    return {
+        "@urdf": f"""
+<link name="roller"/>
+<joint name="roller_joint" type="{kind}">
+  <parent link="upper_arm"/><child link="roller"/>
+  <axis xyz="0 1 0"/>
+  <limit lower="-3" upper="3" effort="9" velocity="9"/>{mark}
+</joint>
+<gazebo>
+  <plugin filename="libd.so" name="gz::sim::systems::DiffDrive">
+    <left_joint>roller_joint</left_joint>
+  </plugin>
+</gazebo>
+"""
+    }
+
+
 _MARK = "  <!-- ^ KIN009 -->"
 GOOD = [
+    _rolling("continuous"),
     _hinge("<lower>-0.1</lower><upper>0.1</upper>"),
     _hinge("<lower>0</lower><upper>0</upper>", kind="fixed"),
     _hinge("<lower>-1</lower><upper>1</upper>") + _DRIVE,
@@ -141,4 +163,5 @@ BAD = [
     _hinge("<lower>0</lower><upper>0</upper>", _MARK) + _DRIVE,
     _hinge("", _MARK, "fixed") + _DRIVE,
     _hinge(f"<lower>-1</lower>{_MARK}<upper>1</upper>") + _WHEELS,
+    _rolling("revolute", _MARK),
 ]

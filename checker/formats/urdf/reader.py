@@ -253,12 +253,16 @@ def _read_axis(
     axis = joint.child("axis") or joint
     limit = joint.child("limit") or joint
     dynamics = joint.child("dynamics") or joint
-    unlimited = (
-        joint.get("type") == "continuous" or limit is joint or has_version(joint.document, "1.2")
-    )
+    endless = joint.get("type") == "continuous"
+    unlimited = endless or limit is joint or has_version(joint.document, "1.2")
 
     def number(element: Element, name: str, default: float) -> Located[float]:
         return values.attribute_numbers(element, name, (default,))[0]
+
+    def bound(name: str, infinite: float) -> Located[float]:
+        stated = number(limit, name, infinite if unlimited else 0.0)
+        # Readers of URDF ignore the limits of a continuous joint.
+        return Located(infinite, stated.span, stated=False) if endless else stated
 
     # libsdformat: the last <gazebo> of the joint that has the tag counts.
     def spring(name: str) -> Located[float]:
@@ -269,8 +273,8 @@ def _read_axis(
         # urdfdom: x without an <axis>, no direction with one that states none.
         values.attribute_numbers(axis, "xyz", (1.0, 0.0, 0.0) if axis is joint else _ZERO),
         "",
-        number(limit, "lower", -math.inf if unlimited else 0.0),
-        number(limit, "upper", math.inf if unlimited else 0.0),
+        bound("lower", -math.inf),
+        bound("upper", math.inf),
         number(limit, "effort", math.inf),
         number(limit, "velocity", math.inf),
         number(dynamics, "damping", 0.0),
