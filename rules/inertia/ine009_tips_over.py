@@ -2,14 +2,15 @@
 
 The tip angle is the tilt at which the centre of mass is above the nearest edge of the support.
 Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
-flat ground below the lowest collision. A caster or foot that is drawn there and has no collision
-is named instead of the centre of mass. A robot that leans between 5° and 15° until it rests on
-casters that do not reach the ground does not tip over: a warning names them. Shapes within 10 mm of
-the ground support the robot, meshes with their convex hull. A robot on wheels of two sizes leans a
+flat ground below the lowest collision. A caster or foot that is drawn there and has no collision is
+named instead of the centre of mass. A robot that leans between 5° and 15° until it rests on casters
+that do not reach the ground does not tip over: a warning names them. Shapes within 10 mm of the
+ground support the robot, meshes with their convex hull. A robot on wheels of two sizes leans a
 little, and stands on both. A robot of URDF that stands on legs is not judged, nor is one whose name
 says that it balances or that has two wheels on one axle and nothing else near the ground: a
-controller decides how it stands. For a description that no simulator gets, such as one for
-transforms alone, it is an info.
+controller decides how it stands. Nor is one that sliding or planar joints carry, from the world or
+from a link without mass and collision: it does not stand. For a description that no simulator gets,
+such as one for transforms alone, it is an info.
 
 Fix: give each caster and foot a `<collision>` that reaches the ground: lower a part that is too
 high by its joint, or give it a greater radius. Else check the centre of mass of the heaviest link
@@ -36,6 +37,7 @@ _NEAR_GROUND = 0.01
 """Metres."""
 _HINGES = 3
 """Hinges of a leg, such as two at the hip and one at the knee; a rocker-bogie has two."""
+_SLIDES = ("prismatic", "planar")
 _UPRIGHT = 0.5
 """Part along z of an axis that is nearer to upright than to level."""
 
@@ -71,8 +73,9 @@ def check(
     if masses.unbalanced:
         yield unchecked(masses.unbalanced)
         return
-    if not robot.conventions.states_start and _stands_on_legs(masses):
-        return  # Its controller decides how it stands.
+    on_legs = not robot.conventions.states_start and _stands_on_legs(masses)
+    if on_legs or _is_carried(robot):
+        return  # Its controller decides how it stands, or it does not stand.
     angle, centre, ground = masses.tip_angle, masses.centre, masses.support_height
     if angle is None or centre is None or ground is None:
         return
@@ -167,6 +170,24 @@ def _chain(above: Mapping[str, Tie], name: str) -> Iterator[Tie]:
         name = tie.parent
 
 
+def _is_carried(robot: Robot) -> bool:
+    """Return whether a slide moves the robot over the ground: nothing above it has a body."""
+    above = spanning_tree_of(robot).by
+    slides = [tie for tie in robot.tree.ties if tie.joint.type.value in _SLIDES]
+    return any(
+        not any(_has_body(robot, it.parent) for it in (tie, *_chain(above, tie.parent)))
+        for tie in slides
+    )
+
+
+def _has_body(robot: Robot, name: str) -> bool:
+    """Return whether a link, or one that is fixed to it, has a mass or a collision."""
+    bodies = robot.tree.rigid_bodies
+    names = bodies.links[bodies.of_link[name]] if name in bodies.of_link else []
+    links = [robot.tree.links[it] for it in names if it in robot.tree.links]
+    return any(link.mass or link.collisions for link in links)
+
+
 def _bends(robot: Robot, tie: Tie) -> bool:
     """Return whether a joint is a hinge that is not upright, as a steering joint is."""
     axes = tie.joint.axes if tie.joint.type.value == "revolute" else ()
@@ -223,13 +244,51 @@ def _on_two_wheels(height: float, mark: str = "") -> str:
     return _rover(0).replace("<pose>0.2", "<pose>0.0").replace("<pose>-0.2", "<pose>0.0") + casters
 
 
+def _beside(root: str, mark: str = "") -> dict[str, object]:
+    """Return a rover of URDF with its mass in front of its wheels, on a slide below a root."""
+    inertia = '<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/>'
+    wheels = "".join(
+        f"""
+<joint name="turn_{number}" type="continuous">
+  <parent link="rover"/><child link="wheel_{number}"/>
+  <origin xyz="{x} {y} 0" rpy="-1.5708 0 0"/><axis xyz="0 0 1"/>
+</joint>
+<link name="wheel_{number}">
+  <inertial><mass value="1"/>{inertia}</inertial>
+  <collision><geometry><cylinder radius="0.1" length="0.05"/></geometry></collision>
+</link>"""
+        for number, (x, y) in enumerate(((0.2, 0.2), (0.2, -0.2), (-0.2, 0.2), (-0.2, -0.2)))
+    )
+    return {
+        "@urdf": True,
+        "urdf/arm.urdf": f"""<robot name="rover">
+<link name="rail">{root}</link>
+<joint name="slide" type="prismatic">
+  <parent link="rail"/><child link="rover"/><axis xyz="1 0 0"/>
+  <limit lower="-5" upper="5" effort="1" velocity="1"/>
+</joint>
+<link name="rover">
+  <inertial>
+    <origin xyz="0.5 0 0"/>{mark}
+    <mass value="12"/>{inertia}
+  </inertial>
+</link>{wheels}
+</robot>
+""",
+    }
+
+
+_BALLAST = """<inertial><mass value="0.1"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>"""
 GOOD = [
+    _beside(""),
     _on_two_wheels(0.01),
     _rover(0),
     _rover(0.05),
     _rover(0, front=0.08),
 ]
 BAD = [
+    _beside(_BALLAST, _MARK),
     _rover(0.35, mark=_MARK),
     _rover(0.17, mark=_MARK),
     _rover(0, 0.3, mark=_MARK),
