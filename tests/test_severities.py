@@ -237,6 +237,16 @@ DRAWN_WHEEL = """<link name="wheel">
 """
 TOUCHING_WHEEL = DRAWN_WHEEL.replace("visual", "collision")
 FORMER = {"@ros2": "        Node(package='p', node_executable='e'),"}
+NAMELESS = {
+    "@ros2": True,
+    "launch/lens.launch.py": """from launch import LaunchDescription
+from launch_ros.actions import LifecycleNode
+
+
+def generate_launch_description():
+    return LaunchDescription([LifecycleNode(package='p', executable='e', name='lens')])
+""",
+}
 LEFT = {
     "package.xml": """<package format="3">
   <name>acme_can</name>
@@ -504,6 +514,8 @@ CASES: list[tuple[str, Example, str]] = [
     ("KIN008", {"@urdf": HUNG}, "error"),
     ("KIN008", {"@urdf": HUNG, **ONLY_SHOWN}, "warning"),
     ("LCH004", {"@ros2": "Node(package='p', node_executable='e', node_name='n'),"}, "error"),
+    ("LCH004", NAMELESS, "error"),
+    ("LCH004", {**NAMELESS, "README.md": "# Lens\n\nFor ROS 2 Foxy.\n"}, "warning"),
     ("KIN002", TWICE_HELD.format("<static>true</static>"), "info"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),

@@ -53,17 +53,33 @@ if TYPE_CHECKING:
 
 _ROS = "--ros-args"
 OLD_KEYWORDS: Mapping[str, str] = MappingProxyType(
-    {"node_name": "name", "node_executable": "executable", "node_namespace": "namespace"}
+    {
+        "node_name": "name",
+        "node_executable": "executable",
+        "node_namespace": "namespace",
+        "node_plugin": "plugin",
+    }
 )
-"""Keywords of `Node` until Foxy, each with its present one."""
+"""Keywords of nodes and components until Foxy, each with its present one."""
+_REQUIRED: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "Node": ("executable",),
+        "LifecycleNode": ("executable", "name", "namespace"),
+        # Containers have a usual program in newer releases.
+        "ComposableNodeContainer": ("name", "namespace"),
+        "ComposableNode": ("package", "plugin"),
+    }
+)
+"""Keywords without which launch_ros raises a TypeError, from Galactic on."""
 _KEYWORDS = (
     *("package", "executable", "name", "namespace", "exec_name", "parameters", "remappings"),
     *("ros_arguments", "arguments", "composable_node_descriptions", "condition"),
+    *("plugin", "extra_arguments"),
     *("cmd", "prefix", "cwd", "env", "additional_env", "shell", "sigterm_timeout"),
     *("sigkill_timeout", "emulate_tty", "output", "output_format", "cached_output", "log_cmd"),
     *("on_exit", "respawn", "respawn_delay", "respawn_max_retries"),
 )
-"""Keywords of nodes and containers, with those of `ExecuteProcess`, which gets the others."""
+"""Keywords of nodes and components, with those of `ExecuteProcess`, which gets the others."""
 _NODES: Mapping[str, NodeKind] = MappingProxyType(
     {
         "Node": NodeKind.NODE,
@@ -211,6 +227,7 @@ def _components(made: Made, context: Context, unread: list[Unread]) -> Iterator[
 def _component(made: Made, context: Context) -> Node:
     if made.values.get("condition") is not None:
         context = context.under(read_conditions(made, context))
+    _keywords(made, context)
     parameters, unread = _parameters(made, context)
     return Node(
         kind=NodeKind.COMPONENT,
@@ -256,8 +273,7 @@ def _keywords(made: Made, context: Context) -> None:
         where = made.keywords.get(name, made.span)
         message = f"{made.name} has no keyword {name!r}"
         context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
-    # Containers have a usual program in newer releases.
-    stated = {"executable", "node_executable"}.intersection(made.values)
-    if not stated and made.name != "ComposableNodeContainer":
-        message = f"{made.name} has no executable"
-        context.fault(LaunchFaultKind.ATTRIBUTE, made.span, message, "executable")
+    stated = {OLD_KEYWORDS.get(name, name) for name in made.values}
+    for name in _REQUIRED.get(made.name, ()):
+        if name not in stated:
+            context.fault(LaunchFaultKind.ATTRIBUTE, made.span, f"{made.name} has no {name}", name)
