@@ -52,7 +52,12 @@ from checker.package.model_file import own_model
 from checker.package.nowhere import is_nowhere
 from checker.package.package import Package
 from checker.package.references import PROVIDED
-from checker.package.released import ReleasedNames, distributions_with, is_of_system
+from checker.package.released import (
+    ReleasedNames,
+    distributions_with,
+    is_listed,
+    is_of_system,
+)
 from checker.package.submissions import is_slip_for, robot_of
 from checker.package.teams import teams
 from checker.robots.urdf_files import UrdfFiles
@@ -166,7 +171,8 @@ def check(
                 yield _at_hand(package, manifest, use, bringing)
         elif not manifest.depends_on(name) and not _brought(manifest, name):
             others.setdefault(name, use)
-    yield from _no_such_package(others, "" if former_distribution(package) else context.distro)
+    distro = "" if former_distribution(package) else context.distro
+    yield from _no_such_package(others, distro, is_stated=context.distro_is_known)
     yield from _not_imported(package, others)
     yield from _distribution(package, manifest, others, bringing, context.release)
     yield from _lender(package, manifest)
@@ -317,17 +323,20 @@ def _brings(bringing: Mapping[str, str], name: str) -> str:
     return next((bringing[it] for it in (name, *wholes) if it in bringing), "")
 
 
-def _no_such_package(uses: dict[str, Use], distro: str) -> Iterator[Finding]:
+def _no_such_package(uses: dict[str, Use], distro: str, *, is_stated: bool) -> Iterator[Finding]:
     """Report, and take out, misspelt names of packages: rosdep would not find what is declared.
 
-    Nor would it find what launch files start that the distribution no longer has: LCH015 says so.
+    Nor would it find what the distribution does not have: LCH015 says so of what is started.
     """
     names, removed = ReleasedNames(distro), table("removed_packages")["names"]
     for name, use in [*uses.items()] if distro else ():
-        if use.how.startswith(_STARTED) and distro in removed.get(name, {}).get("missing_in", ()):
+        released = distributions_with(name)
+        of_others = is_stated and is_listed(distro) and released and distro not in released
+        is_removed = distro in removed.get(name, {}).get("missing_in", ())
+        if of_others or (use.how.startswith(_STARTED) and is_removed):
             del uses[name]
             continue
-        known = distributions_with(name) or is_of_system(name)
+        known = released or is_of_system(name)
         meant = None if known else names.correction_of(name)
         if meant is not None:
             del uses[name]

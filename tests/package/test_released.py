@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from checker.package.released import ReleasedNames, distributions_with, is_of_system
+from checker.pipeline import check_package
+from checker.rule_testing import write_example
+from checker.settings import Settings
 
 
 def test_who_has_a_package() -> None:
@@ -32,3 +37,14 @@ def test_who_has_a_package() -> None:
 )
 def test_a_slip_of_the_pen(name: str, meant: str | None) -> None:
     assert ReleasedNames("jazzy").correction_of(name) == meant
+
+
+@pytest.mark.parametrize(("readme", "lacks"), [("For ROS 2 Jazzy.\n", False), ("An arm.\n", True)])
+def test_what_the_distribution_does_not_have_is_not_to_be_declared(
+    readme: str, lacks: bool, tmp_path: Path
+) -> None:
+    """Where no file names a distribution, it may be one that has the package."""
+    node = "        Node(package='warehouse_ros_mongo', executable='server'),"
+    package = write_example({"@ros2": node, "README.md": readme}, tmp_path)
+    (report,) = check_package(package, Settings(select=("PKG007",))).packages
+    assert any("warehouse_ros_mongo" in found.message for found in report.findings) is lacks
