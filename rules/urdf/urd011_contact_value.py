@@ -3,25 +3,29 @@
 A negative friction accelerates a sliding part, and a contact without stiffness lets the part sink
 into the ground. Zero friction is right for a part that slides, so a caster, recognized by its name
 or its spherical collision, is not reported. A stiffness so low that the link sinks far into the
-ground under a quarter of the robot's weight carries nothing: the robot rests on other links.
+ground under a quarter of the robot's weight carries nothing: the robot rests on other links. That
+is so in Gazebo Classic; of kp and kd Gazebo Sim asks only that they are numbers (KIN019).
 
 Fix: write a positive number: friction has no unit, kp is in N/m and kd in N·s/m.
-Source: Gazebo Classic, "Using a URDF in Gazebo": mu1, mu2, kp, kd; Open Dynamics Engine, contacts.
+Source: Gazebo Classic, "Using a URDF in Gazebo": mu1, mu2, kp, kd; Open Dynamics Engine, contacts;
+gz-physics, SDFFeatures.cc of each engine (`physics_engines.json`).
 """
 
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.extensions import extension_text
 from checker.model.values import parse_number
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 UNITS = {"mu1": "", "mu2": "", "kp": " N/m", "kd": " N·s/m"}
 _GRAVITY = 9.8
+_OF_CLASSIC = ("kp", "kd")
+"""Tags whose value Gazebo Sim does not read."""
 MAY_BE_ZERO = ("mu1", "mu2", "kd")
 """Tags that may be zero: a part may slide without friction, and a contact may have no damping."""
 
 
 @rule("URD011", "contact-value", Severity.WARNING, Concern.ROBOT)
-def check(description: UrdfDescription, *, depth: float = 0.1) -> Findings:
+def check(description: UrdfDescription, context: Context, *, depth: float = 0.1) -> Findings:
     """Report mu1, mu2, kp and kd that are not positive, and a kp that carries nothing.
 
     Options:
@@ -39,6 +43,8 @@ def check(description: UrdfDescription, *, depth: float = 0.1) -> Findings:
             value = parse_number(text.value.strip())
             if value is None:
                 yield finding(text, f"{where} is {text.value[:40]!r}, expected a number")
+            elif child.tag in _OF_CLASSIC and context.is_gazebo_sim:
+                continue
             elif value <= 0:
                 harmless = value == 0 and child.tag in MAY_BE_ZERO
                 if harmless and _slides(description, tag.reference.value):
@@ -94,9 +100,15 @@ def _foot(stiffness: str, mark: str = "") -> dict[str, str]:
     }
 
 
+def _sim(example: dict[str, str]) -> dict[str, str]:
+    return {**example, "@profile": "ros2"}
+
+
 _MARK = "  <!-- ^ URD011 -->"
 GOOD = [
     _foot("1000"),
+    _sim(_foot("5")),
+    _sim(_tag("<kd>-1</kd>")),
     _tag("<mu1>1.1</mu1><mu2>0.9</mu2><kp>1e6</kp><kd>100.0</kd>"),
     _tag("<material>Gazebo/Red</material>"),
     {
@@ -114,6 +126,8 @@ GOOD = [
 BAD = [
     _foot("5", _MARK),
     _tag(f"<mu1>-1</mu1>{_MARK}"),
+    _sim(_tag(f"<mu1>-1</mu1>{_MARK}")),
+    _sim(_tag(f"<kp>hard</kp>{_MARK}")),
     _tag(f"<mu2>0</mu2>{_MARK}"),
     _tag(f"<kp>0</kp>{_MARK}"),
     _tag(f"<kd>much</kd>{_MARK}"),
