@@ -54,6 +54,8 @@ _NEAR_EARTH = 0.05
 
 OTHERS_SIMULATED = "Gazebo gets another description"
 """Why no simulator gets a robot, beside one that a simulator gets."""
+MUJOCO_SIMULATED = "the package simulates a model of its own in MuJoCo, and nothing else"
+"""Why no simulator gets a robot of URDF beside models of MuJoCo."""
 UNDRIVEN = "no launch file that loads it starts a simulator, and nothing drives it in one"
 """Why no simulator gets a robot that has sensors or plugins for one."""
 
@@ -139,10 +141,10 @@ class Robot(Part, dict=True):
     def never_simulated(self) -> str:
         """Why no simulator is meant to get it, as a clause; empty if one may be.
 
-        Gazebo gets another description, nothing would drive it there, or its ros2_control is that
-        of hardware alone.
+        Gazebo gets another description, nothing would drive it there, MuJoCo gets its own model, or
+        its ros2_control is that of hardware alone.
         """
-        stated = self.shown_only in (OTHERS_SIMULATED, UNDRIVEN)
+        stated = self.shown_only in (OTHERS_SIMULATED, MUJOCO_SIMULATED, UNDRIVEN)
         certain = stated or self.element.child("ros2_control")
         return self.shown_only if certain else ""
 

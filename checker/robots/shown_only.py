@@ -4,23 +4,30 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from checker.formats.xacro.files import local_path
 from checker.launch.ros2.descriptions import LoadedDescription, loaded_descriptions
 from checker.launch.ros2.graph import LaunchGraph, Node, Process
 from checker.launch.ros2.package_launch import launches_naming
-from checker.model.robot import OTHERS_SIMULATED, UNDRIVEN
+from checker.model.robot import MUJOCO_SIMULATED, OTHERS_SIMULATED, UNDRIVEN
+from checker.package.mjcf_files import mjcf_files
 from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
 
-_SIMULATORS = re.compile(
+_OTHERS = re.compile(
     r"gazebo|gzserver|(?<![a-z])gz(?![a-z])|(?<![a-z])ign(?:ition)?(?![a-z])|spawn_entity"
-    r"|spawn_model|webots|mujoco|isaac|coppelia|v-?rep\b|bullet|\bunity|stage_ros|simulat",
+    r"|spawn_model|webots|isaac|coppelia|v-?rep\b|bullet|\bunity|stage_ros",
     re.IGNORECASE,
 )
+"""What a launch file contains that starts a simulator other than MuJoCo."""
+_SIMULATORS = re.compile(rf"{_OTHERS.pattern}|mujoco|simulat", re.IGNORECASE)
 """What a launch file contains that starts a simulator, or may."""
+_LOADS_MUJOCO = re.compile(
+    r"^\s{0,40}(?:import|from)\s+mujoco\b|#\s{0,8}include\s{0,8}[<\"]mujoco/", re.MULTILINE
+)
+_PROGRAMS = (".py", ".cpp", ".cc", ".h", ".hpp")
 _DESCRIPTION = re.compile(r"\w\.(?:urdf|xacro|sdf)\b")
 _CLOCK = re.compile(
     r"simulat(?:ion|ed|or)\s{1,4}(?:\(gazebo\)\s{1,4})?(?:clock|time)\b", re.IGNORECASE
@@ -42,9 +49,11 @@ def shown_only(
 
     A description with an element for Gazebo is for a simulator, whatever starts it, unless a
     simulator is given another one, or the launch files that load it start none, and nothing would
-    drive its wheels there. So may be a package whose launch files are in another one. In a folder
-    without package.xml and launch files, of which no other launch file names the description, it
-    takes more than friction or colours: a plugin or a sensor.
+    drive its wheels there. In a package that runs MuJoCo with models of its own, and where no
+    launch file starts another simulator, it takes a plugin or a sensor. So may be a package whose
+    launch files are in another one. In a folder without package.xml and launch files, of which no
+    other launch file names the description, it takes more than friction or colours: a plugin or a
+    sensor.
 
     Args:
         package: The package being checked.
@@ -56,8 +65,8 @@ def shown_only(
     if package.only or _has_simulated_hardware(root):
         return ""
     texts = _starting(launch, posixpath.basename(path))
-    if texts and not _starts_simulator(texts, name) and _spawns_another(launch.values(), name):
-        return OTHERS_SIMULATED
+    if others := _others_simulated(package, root, texts, launch.values()):
+        return others
     loose = not (package.exists("package.xml") or package.launch_texts)
     loose = loose and not package.workspace.launches_file(posixpath.basename(path))
     if _is_for_gazebo(root, loose=loose):
@@ -70,6 +79,43 @@ def shown_only(
     return _unstarted(texts or [*launch.values()], name) or (
         OTHERS_SIMULATED if _get_others(package, own, path) else ""
     )
+
+
+def _others_simulated(
+    package: Package, root: Element, texts: list[str], launch: Collection[str]
+) -> str:
+    """Return the clause that simulators get other models; else empty.
+
+    Args:
+        package: The package being checked.
+        root: The description.
+        texts: The launch files that load it.
+        launch: All launch files of the workspace.
+    """
+    name = package.declared_name
+    if texts and not _starts_simulator(texts, name) and _spawns_another(launch, name):
+        return OTHERS_SIMULATED
+    alone = not _is_for_gazebo(root, loose=True) and _runs_mujoco_alone(package, launch)
+    return MUJOCO_SIMULATED if alone else ""
+
+
+def _runs_mujoco_alone(package: Package, launch: Iterable[str]) -> bool:
+    """Return whether a package runs MuJoCo with models of its own, and launch files nothing else.
+
+    MuJoCo reads URDF too: none of the programs that load it names a URDF.
+
+    Args:
+        package: The package.
+        launch: The launch files of the workspace.
+    """
+    texts = [_CLOCK.sub("", text) for text in launch]
+    if not texts or any(map(_OTHERS.search, texts)) or package.simulator_signs:
+        return False
+    programs = (package.read(it.path) for it in package.index.with_suffix(*_PROGRAMS))
+    texts = [it.text for it in programs if isinstance(it, SourceText)]
+    loading = [text for text in texts if _LOADS_MUJOCO.search(text)]
+    by_urdf = any(".urdf" in text for text in loading)
+    return bool(loading) and not by_urdf and bool(mjcf_files(package))
 
 
 def _is_for_gazebo(root: Element, *, loose: bool) -> bool:

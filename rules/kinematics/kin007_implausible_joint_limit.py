@@ -9,8 +9,9 @@ Classic turn their wheels with a motor of the physics engine, past these limits.
 exporter writes `effort="0" velocity="0"` by default.
 
 With a limit of 1e9 N·m a wheel never stalls on any slope, and one collision can throw the robot
-away. Without a limit, the rules cannot check whether the motor is strong enough. Rotors need none:
-their plugin limits the thrust.
+away; it is an info in a URDF beside models of MuJoCo, which alone are simulated. Without a limit,
+the rules cannot check whether the motor is strong enough. Rotors need none: their plugin limits the
+thrust.
 
 Fix: write the motor's stall torque (N·m) as `effort` and its no-load speed (rad/s) as `velocity`,
 both after the gear.
@@ -25,7 +26,7 @@ from collections.abc import Iterator
 from checker.formats.urdf.description import motor_interfaces
 from checker.model.components import Axis, Joint, Plugin
 from checker.model.plugin_library import library_stem
-from checker.model.robot import Robot
+from checker.model.robot import MUJOCO_SIMULATED, Robot
 from checker.ros.ros2_control.distributions import distribution_of, is_from, is_of_gazebo
 from checker.ros.ros2_control.hardware import Hardware, read_hardware
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
@@ -64,10 +65,11 @@ def check(
     highest = {"effort": highest_effort, "velocity": highest_velocity}
     commanded, stated = _commanded_joints(robot), robot.conventions.states_devices
     managed = _managed_joints(robot)
+    placeholder = Severity.INFO if robot.shown_only == MUJOCO_SIMULATED else None
     for joint in robot.joints:
         driver = robot.driven_joints.get(joint.scoped_name)
         for axis in joint.axes:
-            yield from _too_high(joint, axis, highest)
+            yield from _too_high(joint, axis, highest, placeholder)
             yield from _cut_to_zero(joint, axis, managed.get(joint.name.value, set()))
             if driver is not None and driver.class_name not in _ROTORS:
                 yield from _missing(joint, axis)
@@ -80,13 +82,16 @@ def check(
                 yield from _still(joint, axis, held=held)
 
 
-def _too_high(joint: Joint, axis: Axis, highest: dict[str, float]) -> Iterator[Finding]:
+def _too_high(
+    joint: Joint, axis: Axis, highest: dict[str, float], severity: Severity | None
+) -> Iterator[Finding]:
     for kind, limit in (("effort", axis.effort), ("velocity", axis.velocity)):
         if highest[kind] < limit.value < math.inf:
             yield finding(
                 limit,
                 f"joint {joint.name.value!r} has the {kind} limit {limit.value:g} "
                 f"{_unit(joint)[kind]}, expected at most {highest[kind]:g}",
+                severity=severity,
                 key=f"{kind} {limit.value:g}",
             )
 

@@ -52,6 +52,7 @@ GOOD = [
     _lamp(_BOX.replace("@", '<material name="red"/>') + "<contact><lateral_friction/></contact>"),
     _lamp('<origin xyz="0 0 0"/><gravity>true</gravity>'),
     _lamp("<sensor/>", '<dynamics damping="1"/>'),
+    _lamp("", '<joint_properties damping="0.0" friction="0.0"/>'),
     {"@urdf": '<gazebo reference="upper_arm"><mu1>1</mu1></gazebo>'},
 ]
 BAD = [

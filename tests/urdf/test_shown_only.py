@@ -62,7 +62,7 @@ def _report(tmp_path: Path, launch: str, *, urdf: str = _SHOWN, comment: str = "
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     return check_package(
-        tmp_path / NAME, Settings(select=("URD007", "URD016", "GEO002", "INE009", "TRI"))
+        tmp_path / NAME, Settings(select=("URD007", "URD016", "GEO002", "INE009", "KIN007", "TRI"))
     ).packages[0]
 
 
@@ -88,6 +88,47 @@ def test_what_is_spawned_needs_it(tmp_path: Path, given: str, severity: Severity
 def test_a_comment_may_say_what_it_is_for(tmp_path: Path) -> None:
     report = _report(tmp_path, _TOPIC, comment="<!-- A simple model for RViz. -->")
     assert report.verdict is VerdictKind.READY
+
+
+_MUJOCO = _RVIZ.replace("[state", "[state, Node(package='box', executable='mujoco_sim')")
+_GRIP = '<gazebo reference="body"><mu1 value="0.0"/></gazebo>'
+_EYE = '<gazebo reference="body"><sensor name="eye" type="camera"/></gazebo>'
+
+
+@pytest.mark.parametrize(
+    ("launch", "program", "urdf", "severity"),
+    [
+        (_MUJOCO, "import mujoco", _GRIP, Severity.INFO),
+        (_MUJOCO, "import mujoco", _EYE, Severity.ERROR),
+        (_MUJOCO, "import numpy", _GRIP, Severity.ERROR),
+        (_MUJOCO, "import mujoco  # box.urdf", _GRIP, Severity.ERROR),
+        (_TOPIC, "import mujoco", _GRIP, Severity.ERROR),
+    ],
+)
+def test_what_stands_beside_models_of_mujoco_is_not_for_gazebo(
+    tmp_path: Path, launch: str, program: str, urdf: str, severity: Severity
+) -> None:
+    report = _beside_mujoco(tmp_path, launch, program, _SHOWN + urdf)
+    assert {it.severity for it in report.findings if it.rule == "URD007"} == {severity}
+
+
+@pytest.mark.parametrize(
+    ("launch", "severity"), [(_MUJOCO, Severity.INFO), (_TOPIC, Severity.WARNING)]
+)
+def test_limits_beside_models_of_mujoco_may_be_placeholders(
+    tmp_path: Path, launch: str, severity: Severity
+) -> None:
+    limited = _TURNS.replace("</joint>", '<limit effort="1" velocity="9999"/></joint>')
+    report = _beside_mujoco(tmp_path, launch, "import mujoco", _SHOWN + limited)
+    assert {it.severity for it in report.findings if it.rule == "KIN007"} == {severity}
+
+
+def _beside_mujoco(tmp_path: Path, launch: str, program: str, urdf: str) -> PackageReport:
+    folder = tmp_path / NAME / "mujoco"
+    folder.mkdir(parents=True)
+    (folder / "sim.py").write_text(f"{program}\n")
+    (folder / "box.xml").write_text("<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
+    return _report(tmp_path, launch, urdf=urdf)
 
 
 _TOP_HEAVY = """<link name="body">

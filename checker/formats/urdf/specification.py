@@ -197,6 +197,8 @@ def _changes_nothing(part: Element) -> bool:
     """Return whether an element has the same effect as without it."""
     if part.tag == "origin":
         return _are_zeros(f"{part.get('xyz') or ''} {part.get('rpy') or ''}")
+    if part.tag == "joint_properties":
+        return _are_zeros(f"{part.get('damping') or ''} {part.get('friction') or ''}")
     return part.text.value.strip() in table("urdf_spec")["elsewhere"]["defaults"].get(part.tag, ())
 
 
