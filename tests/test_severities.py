@@ -237,6 +237,18 @@ DRAWN_WHEEL = """<link name="wheel">
 """
 TOUCHING_WHEEL = DRAWN_WHEEL.replace("visual", "collision")
 FORMER = {"@ros2": "        Node(package='p', node_executable='e'),"}
+
+
+def left_out(macro: str) -> dict[str, str | bool]:
+    """Return a camera that calls a macro, beside a robot that a launch file loads."""
+    head = "<robot name='arm' xmlns:xacro='http://ros.org/wiki/xacro'>"
+    return {
+        "@urdf": True,
+        "urdf/parts.xacro": f"{head}<xacro:macro name='lens' params=''/></robot>",
+        "urdf/camera.xacro": f"{head}<link name='eye'/><xacro:{macro}/></robot>",
+    }
+
+
 NAMELESS = {
     "@ros2": True,
     "launch/lens.launch.py": """from launch import LaunchDescription
@@ -452,6 +464,8 @@ CASES: list[tuple[str, Example, str]] = [
         {"@fragment": BRACKET.format(mass=30, shape=CUBE_MESH), **DRAWN_CUBE},
         "warning",
     ),
+    ("URD001", left_out("lens"), "info"),
+    ("URD001", left_out("lnes"), "error"),
     ("URD006", {"@urdf": LOST.format("<mu1>0.9</mu1><mu2>1.2</mu2><kp>1e6</kp>")}, "warning"),
     ("URD006", {"@urdf": LOST.format("<mu1>0.01</mu1>")}, "warning"),
     ("URD006", {"@urdf": LOST.format("<fdir1>1 0 0</fdir1>")}, "error"),

@@ -17,7 +17,7 @@ from checker.launch.ros1.launch_file import Load
 from checker.package.kind import PackageKind, enclosing_package
 from checker.package.package import Package
 from checker.robots.leftovers import is_of_page
-from checker.source.text import SourceText
+from checker.source.text import SourceText, without_comments
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
@@ -290,6 +290,15 @@ def _made_of(package: Package) -> Iterator[str]:
 def is_included(package: Package, path: str) -> bool:
     """Return whether a file of this or another package includes a file, by any kind of name."""
     return any(including(package, path))
+
+
+def is_named_by_include(package: Package, path: str) -> bool:
+    """Return the same, where comments and whole names of other files do not count."""
+    name = posixpath.basename(path)
+    others = {posixpath.basename(other) for other in _files(package)} - {name}
+    texts = (without_comments(it.file, it.text) for it in including(package, path))
+    names = (it for text in texts for it in _INCLUDED.findall(text) if name.endswith(it))
+    return any(it not in others for it in names)
 
 
 def including(package: Package, path: str) -> Iterator[SourceText]:

@@ -26,6 +26,7 @@ from checker.robots.candidates import (
     Candidate,
     candidates,
     is_included,
+    is_named_by_include,
     may_hold_description,
     misnamed_models,
     most_likely,
@@ -135,10 +136,9 @@ class PackageDescriptions:
                 unread.append((candidate, self._unread(candidate, outcome.reason)))
             elif reason := self._lack(candidate, outcome, needed.get(candidate.path, ())):
                 unread.append((candidate, reason))
-            elif self._is_optional(candidate, outcome):
-                unused.append(_not_included(candidate.path))
             else:
-                faults.append(replace(outcome, loaded=candidate.loaded))
+                kind = self._kind(candidate, outcome)
+                faults.append(replace(outcome, kind=kind, loaded=candidate.loaded))
         descriptions = self._marked(descriptions)
         others = [*self._others(expanded)] if self._with_others else []
         faults += (it for it in others if isinstance(it, XacroFault))
@@ -184,10 +184,9 @@ class PackageDescriptions:
 
     def _marked(self, descriptions: Sequence[UrdfDescription]) -> list[UrdfDescription]:
         """Return descriptions; those that nothing loads, beside one that is loaded, say so."""
-        loaded = {candidate.path for candidate in self._candidates if candidate.loaded}
         if self._for_rviz or self._package.only:
             return [*descriptions]
-        if not any(it.file in loaded for it in descriptions):
+        if not any(it.file in self._loaded for it in descriptions):
             documents = {it.file: it.document for it in descriptions}
             left = dict.fromkeys(leftovers(self._package, documents), "nothing loads")
             beside = left_beside_world(self._package, documents)
@@ -198,19 +197,30 @@ class PackageDescriptions:
                 else it
                 for it in descriptions
             ]
-        misplaced = {candidate.path for candidate in self._candidates if candidate.misplaced}
-        naming = Naming(
+        return [
+            it
+            if self._may_be_loaded(it.file)
+            else replace(it, unloaded=f"only in {it.file}, which no launch file loads")
+            for it in descriptions
+        ]
+
+    def _may_be_loaded(self, path: str) -> bool:
+        """Return whether launch files load a file, or name it, where they load another one."""
+        misplaced = any(it.path == path and it.misplaced for it in self._candidates)
+        loaded = self._loaded
+        return path in loaded or (not misplaced and may_be_loaded(self._naming, path, loaded))
+
+    @cached_property
+    def _loaded(self) -> frozenset[str]:
+        return frozenset(it.path for it in self._candidates if it.loaded)
+
+    @cached_property
+    def _naming(self) -> Naming:
+        return Naming(
             self._package.workspace.launch_texts,
             self._package.naming_launch_texts,
             [page.text for page in files_around(self._package, README)],
         )
-        return [
-            it
-            if it.file in loaded
-            or (it.file not in misplaced and may_be_loaded(naming, it.file, loaded))
-            else replace(it, unloaded=f"only in {it.file}, which no launch file loads")
-            for it in descriptions
-        ]
 
     def _others(self, expanded: Mapping[str, Outcome]) -> Iterator[UrdfDescription | XacroFault]:
         """Yield the robots that other values of arguments make, and the faults that they meet."""
@@ -276,10 +286,18 @@ class PackageDescriptions:
         given = " ".join(f"{name}:=…" for name in needed)
         return f"{candidate.path} needs --xacro-arg {given} ({fault.message})" if given else ""
 
-    def _is_optional(self, candidate: Candidate, fault: XacroFault) -> bool:
+    def _kind(self, candidate: Candidate, fault: XacroFault) -> XacroFaultKind:
+        """Return the kind of a fault: that of a part, of a file that is no robot by itself."""
         if candidate.loaded or self._package.only:
-            return False
-        return is_optional_part(self._package, candidate.path, fault)
+            return fault.kind
+        path = candidate.path
+        left_out = (
+            bool(self._loaded)
+            and not self._may_be_loaded(path)
+            and not is_named_by_include(self._package, path)
+        )
+        is_part = is_optional_part(self._package, path, fault, left_out=left_out)
+        return XacroFaultKind.PART if is_part else fault.kind
 
     def _may_be_given(self, candidate: Candidate, fault: XacroFault) -> bool:
         """Return whether what starts a file may well give the argument that it lacks."""

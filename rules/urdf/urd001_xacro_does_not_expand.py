@@ -3,15 +3,15 @@
 The launch file that loads it ends with an error, or loads a robot whose names still contain xacro
 expressions. Files that contain only macros are not reported, nor files that only need an argument
 at launch: one without a default, or with an empty default that makes the expansion fail. A part of
-a robot that no file includes at present, and that has no link or calls a macro of another file, is
-not read.
+a robot that no file includes at present is an info: it has no link, or it lacks a macro or property
+of another file, and launch files load another robot or its joints lead to links of others.
 Further values that the file or a launch file names for an argument are tried too. Braces without a
 dollar sign in a `<transmission>` are an info in ROS 2, which does not read it; in a `<gazebo>` that
 only changes how a link looks they are a warning. A tag of xacro in a file that xacro made, and that
 nothing expands again, is a warning: readers of URDF ignore it.
 
-Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. URD014
-reports what xacro refuses from ROS Noetic on.
+Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. Include a
+part that is included nowhere, or delete it. URD014 reports what xacro refuses from ROS Noetic on.
 Source: xacro, "unknown macro name", "Undefined substitution argument"; ros/xacro#282.
 """
 
@@ -73,6 +73,13 @@ def check(files: UrdfFiles, context: Context) -> Findings:
 def _refused(fault: XacroFault) -> Finding:
     if fault.kind is XacroFaultKind.EMPTY:
         return finding(fault, f"{fault.file} is empty, expected a robot")
+    if fault.kind is XacroFaultKind.PART:
+        return finding(
+            fault,
+            f"{fault.file} is included nowhere, and is no robot by itself: {fault.message}",
+            severity=Severity.INFO,
+            key="part",
+        )
     hint = f": {fault.hint}" if fault.hint else ""
     if private := _PRIVATE.search(fault.message):
         hint = (
@@ -186,7 +193,18 @@ def _choice_example(value: str, mark: str = "") -> dict[str, str]:
     }
 
 
+def _camera_example(including: str, mark: str = "") -> dict[str, str]:
+    macro = '<xacro:macro name="body" params="name"><link name="${name}"/></xacro:macro>'
+    return {
+        "@ros2": _STATE.replace("@", "'large'"),
+        "urdf/arm.urdf.xacro": f'{_HEAD}{macro}<xacro:body name="arm"/>{including}</robot>',
+        "urdf/eye.xacro": f'{_HEAD}<xacro:body name="eye"/>{mark}\n<link name="lens"/></robot>',
+    }
+
+
+_EYE = '<xacro:include filename="eye.xacro"/>'
 GOOD = [
+    _camera_example(_EYE),
     _choice_example("'large'"),
     {"urdf/arm.urdf.xacro": f'{_HEAD}{_MODEL}<link name="base_link"/></robot>'},
     _example(f'<xacro:arg name="name" default="x"/>{_MACROS}<xacro:wheel side="left"/>'),
@@ -196,6 +214,8 @@ GOOD = [
     _example('<link name="a"/><gazebo><plugin name="p" filename="f"><t>{x}</t></plugin></gazebo>'),
 ]
 BAD = [
+    _camera_example("", _MARK),
+    _camera_example(f"<!-- {_EYE} -->", _MARK),
     {"@urdf": f'<gazebo reference="{{side}}_arm">{_MARK}\n<mu1>1</mu1>\n</gazebo>'},
     _example(f'<xacro:wheel side="left"/>{_MARK}'),
     _example(f'<link name="$(arg nmae)/base_link"/>{_MARK}'),

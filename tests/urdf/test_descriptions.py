@@ -10,6 +10,7 @@ from checker.base.cache import NO_CACHE
 from checker.base.output import say_nothing
 from checker.engine.review import judge_package
 from checker.formats.urdf.fixed_joints import Lumping
+from checker.formats.xacro.fault import XacroFaultKind
 from checker.package.inputs import open_input
 from checker.robots.urdf_files import UrdfFiles
 from checker.settings import Settings
@@ -90,9 +91,8 @@ _DRIVE = "<gazebo><plugin name='p' filename='f'><radius>${wheel_radius}</radius>
 
 @pytest.mark.parametrize("part", [_CAMERA, _DRIVE])
 def test_a_part_that_no_robot_includes_is_no_robot(part: str, describe: Describe) -> None:
-    files = describe(with_camera(part)).one(UrdfFiles)
-    assert not files.faults
-    assert files.unused == ("urdf/camera.xacro is not read: no file of a robot includes it",)
+    (fault,) = describe(with_camera(part)).one(UrdfFiles).faults
+    assert (fault.file, fault.kind) == ("urdf/camera.xacro", XacroFaultKind.PART)
 
 
 @pytest.mark.parametrize(
@@ -106,4 +106,4 @@ def test_a_part_that_no_robot_includes_is_no_robot(part: str, describe: Describe
 )
 def test_a_robot_without_its_macros_is_a_fault(describe: Describe, camera: str) -> None:
     (fault,) = describe(with_camera(camera)).one(UrdfFiles).faults
-    assert fault.file == "urdf/camera.xacro"
+    assert (fault.file, fault.kind) == ("urdf/camera.xacro", XacroFaultKind.EXPANSION)

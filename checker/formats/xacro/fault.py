@@ -14,7 +14,8 @@ class XacroFaultKind(enum.StrEnum):
     `EMPTY`: it is empty. `MALFORMED`: it is not well-formed XML. `EXPANSION`: xacro refuses it.
     `ENVIRONMENT`: it needs an environment variable. `ARGUMENT`: it needs an argument that is not
     given. `PREFIX`: tags of xacro lack `xacro:`. `RECURSION`: a macro or a file uses itself.
-    `LIMIT`: expanding it takes more than is allowed.
+    `LIMIT`: expanding it takes more than is allowed. `PART`: it needs names of a robot, and
+    no robot includes it.
     """
 
     EMPTY = "empty"
@@ -25,6 +26,7 @@ class XacroFaultKind(enum.StrEnum):
     PREFIX = "prefix"
     RECURSION = "recursion"
     LIMIT = "limit"
+    PART = "part"
 
 
 class XacroFault(Record, eq=False):
