@@ -46,6 +46,7 @@ _FOLDER = re.compile(r"""["'](/(?:home|Users)/[^"'\n]{1,300})["']""")
 _READ = re.compile(r"\.(?:rviz|ya?ml|urdf|xacro|sdf|sh|world|lua)\Z")
 """Ends of files that a node reads where its command line names one."""
 _ARGUMENT, _OF_COMMAND = "argument {}", "the command line of {}"
+_HOME = "$(env HOME)"
 _OPENING = ("$(file-content ", "$(command ")
 _READ_AT_ONCE = ("textfile", "load")
 """Kinds of parameters of ROS 1 whose files roslaunch reads itself."""
@@ -125,7 +126,7 @@ def _in_environment(launch: Ros2Launch) -> Iterator[tuple[str, Located[str]]]:
 def _opened(name: str, value: str, span: Span) -> Iterator[tuple[str, Located[str]]]:
     """Yield the files that the launch file opens, or has a command read, for a parameter."""
     if value.startswith(_OPENING):
-        for word in value.partition(" ")[2].rstrip(")").split():
+        for word in value.replace(_HOME, "~").partition(" ")[2].rstrip(")").split():
             yield f"the file of parameter {name}", Located(word.strip("'\""), span)
 
 

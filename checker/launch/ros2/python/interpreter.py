@@ -293,7 +293,7 @@ class Interpreter:
         return bounded(self, node, lambda _: plain(owner)[plain(key)])
 
     def environment(self, name: Value, default: Value, node: ast.AST) -> Value:
-        """Return an environment variable: its default, else `~` for HOME, else `$(env NAME)`."""
+        """Return an environment variable: its default, else `$(env NAME)`."""
         known = self.world.variable(str(name)) if isinstance(name, str) else None
         if known is not None and name == "ROS_DISTRO":
             return PlacedText(known, self.span(node))
@@ -304,7 +304,7 @@ class Interpreter:
             return PlacedText(known, self.span(node))
         if not isinstance(name, str) or not is_known(name):
             return self.unknown(node, "the name of an environment variable is not known")
-        return PlacedText("~" if name == "HOME" else f"$(env {name})", self.span(node))
+        return PlacedText(f"$(env {name})", self.span(node))
 
     def joined_path(self, parts: Sequence[Value], node: ast.AST) -> Value:
         """Return `pathlib` paths put together."""
