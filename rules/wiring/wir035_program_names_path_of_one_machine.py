@@ -26,6 +26,7 @@ _SOURCES = (".py", ".cpp", ".cc", ".cxx")
 _HEADERS = (".hpp", ".h")
 _BUILD_FILES = ("setup.py", "CMakeLists.txt")
 _TEXT = re.compile(r"""(["'])((?:/|[A-Za-z]:[/\\])[^"'\n]{1,300}\.[A-Za-z]\w{1,9})\1""")
+_WORD = re.compile(r"\w{1,200}")
 _COMMENT = re.compile(r"#|//|\*|/\*")
 _DEFAULT = re.compile(r"declare_parameter|get_param|add_argument|\bparam\s{0,4}[(<]|environ|getenv")
 
@@ -51,10 +52,11 @@ def check(package: Package) -> Findings:
 def _programs(package: Package) -> Iterator[SourceText]:
     """Yield the programs that the build names, and headers."""
     builds = (package.read(name) for name in _BUILD_FILES if package.exists(name))
-    built = "\n".join(it.text for it in builds if isinstance(it, SourceText))
-    for file in package.index.with_suffix(*_SOURCES, *_HEADERS) if built else ():
+    texts = (it.text for it in builds if isinstance(it, SourceText))
+    words = {word for text in texts for word in _WORD.findall(text)}
+    for file in package.index.with_suffix(*_SOURCES, *_HEADERS) if words else ():
         stem = posixpath.splitext(posixpath.basename(file.path))[0]
-        is_named = file.path.endswith(_HEADERS) or re.search(rf"\b{re.escape(stem)}\b", built)
+        is_named = file.path.endswith(_HEADERS) or stem in words
         is_other = file.is_of_tests or file.path in (*_BUILD_FILES, *package.launch_texts)
         source = package.read(file.path) if is_named and not is_other else None
         if isinstance(source, SourceText):
