@@ -3,6 +3,7 @@
 `<uri>file:///home/me/models/rover</uri>` leads nowhere on every other machine: Gazebo prints an
 error, and the world has no such model, even where the workspace contains one of that name. Where
 the model is the robot, there is nothing to simulate.
+So is it for an include in a `<model>` of the world.
 Below the `WORKDIR` of a Dockerfile it is a warning: the model is in its container alone.
 
 Fix: write `model://` and the name of the model, and put the folder of the models on Gazebo's search
@@ -23,7 +24,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 @rule("WLD012", "include-on-one-machine", Severity.ERROR, Concern.PORTABILITY)
 def check(world: World, package: Package) -> Findings:
     """Report includes whose path is in a home, on a drive, or in a built workspace."""
-    uris = (placed.child("uri") for placed in world.element.all("include"))
+    uris = (placed.child("uri") for placed in world.element.descendants("include"))
     for uri in (element.text for element in uris if element is not None):
         if is_on_one_machine(uri.value):
             container = container_with(package, uri.value)
@@ -55,9 +56,16 @@ def _world(uri: str, mark: str = "") -> dict[str, str]:
     return {"@fragment": text}
 
 
+def _in_model(uri: str) -> dict[str, str]:
+    text = _world(uri, _MARK)["@fragment"]
+    text = text.replace("  <include>", '  <model name="a">\n  <include merge="true">')
+    return {"@fragment": text.replace("</include>", "</include>\n  </model>")}
+
+
 _MARK = "  <!-- ^ WLD012 -->"
 GOOD = [_world("model://rover"), _world("https://fuel.gazebosim.org/1.0/acme/models/rover")]
 BAD = [
+    _in_model("/home/ann/ws/install/acme_arms/share/acme_arms/models/arm"),
     _world("file:///home/ann/models/rover", _MARK),
     _world("file:///home/ann/.gz/fuel/fuel.gazebosim.org/acme/models/rover/5", _MARK),
     {

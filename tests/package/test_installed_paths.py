@@ -7,9 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from checker.formats.sdf.includes import ModelIncludes
 from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.package.uris import Unknown, own_path_on_machine, path_behind
+from checker.source.text import Located, SourceText
+from checker.source.xml import XmlDocument
 
 _MANIFEST = "<package><name>{}</name></package>"
 
@@ -51,3 +54,15 @@ def test_a_file_of_the_same_name_is_not_that_of_another_package(arm: Package) ->
     installed = "/home/me/ws/install/hand_description/share/hand_description/meshes/base.stl"
     assert own_path_on_machine(arm, installed) == ""
     assert own_path_on_machine(arm, "/home/me/arm/meshes/base.stl") == "meshes/base.stl"
+
+
+@pytest.mark.parametrize("scheme", ["", "file://"])
+def test_an_included_model_is_read_where_its_package_has_it(
+    arm: Package, tmp_path: Path, scheme: str
+) -> None:
+    crate = tmp_path / "hand/models/crate/model.sdf"
+    crate.parent.mkdir(parents=True)
+    crate.write_text("<sdf version='1.9'><model name='crate'/></sdf>")
+    uri = f"{scheme}/home/me/ws/install/hand_description/share/hand_description/models/crate"
+    read = ModelIncludes(arm)(Located(uri, SourceText("hall.sdf", uri).whole()))
+    assert isinstance(read, XmlDocument)

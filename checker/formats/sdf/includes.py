@@ -51,13 +51,14 @@ class ModelIncludes(Record):
     def _path(self, uri: str, folder: str) -> str | None:
         """Return the path of a model: next to the file, else of an available package.
 
-        A bare name is looked up as `model://name` is: along the paths of the simulator.
+        A bare name is looked up as `model://name` is: along the paths of the simulator. An absolute
+        path may be that of an installed package.
         """
         if "://" not in uri:
             beside = self._model_file_at(posixpath.join(folder, uri), folder)
             if beside is not None:
                 return beside
-            uri = f"model://{uri}"
+            uri = uri if uri.startswith("/") else f"model://{uri}"
         path = path_behind(self.package, folder, uri)
         return None if isinstance(path, Unknown) else self._model_file_at(path, folder)
 
