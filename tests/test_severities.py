@@ -35,6 +35,10 @@ MADE = """<model><name>Wood</name><version>1.0</version>
 <author><name>A</name><email>a@example.org</email></author><description>Trees</description>
 <sdf version="1.6">made.sdf</sdf></model>
 """
+CLOCKLESS = """- topic_name: scan
+  ros_type_name: sensor_msgs/msg/LaserScan
+  gz_type_name: gz.msgs.LaserScan
+"""
 TWICE_HELD = """{}<link name="shelf"/><link name="board"/>
 <joint name="left" type="fixed"><parent>base_link</parent><child>board</child></joint>
 <joint name="right" type="fixed"><parent>shelf</parent><child>board</child></joint>
@@ -530,6 +534,7 @@ CASES: list[tuple[str, Example, str]] = [
     ("LCH004", {"@ros2": "Node(package='p', node_executable='e', node_name='n'),"}, "error"),
     ("LCH004", NAMELESS, "error"),
     ("LCH004", {**NAMELESS, "README.md": "# Lens\n\nFor ROS 2 Foxy.\n"}, "warning"),
+    ("BRG008", {"@bridge": CLOCKLESS}, "warning"),
     ("KIN002", TWICE_HELD.format("<static>true</static>"), "info"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),

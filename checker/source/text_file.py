@@ -22,7 +22,7 @@ _BOMS = (
 _DECLARED = re.compile(rb"""^\s*<\?xml[^>]*encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
 # A file may declare any codec that Python has, and some of those take quadratic time.
 _KNOWN = re.compile(
-    r"utf-?(?:8|16|32)(?:-?[lb]e)?|us-ascii|ascii|latin-?1|iso-8859-\d{1,2}|windows-125\d|cp125\d"
+    r"utf-?(?:8|16|32)(?:-?[lb]e)?|latin-?1|iso-8859-\d{1,2}|windows-125\d|cp125\d"
     r"|koi8-[ru]|shift_jis|euc-(?:jp|kr)|gb2312|gbk|gb18030|big5",
     re.IGNORECASE,
 )
@@ -33,12 +33,16 @@ class NotText(ValueError):
 
 
 def encoding_of(data: bytes) -> str:
-    """Return the encoding that a text file announces; UTF-8 when it announces none."""
+    """Return the encoding that a text file announces; UTF-8 when it announces none, or ASCII.
+
+    TinyXML-2, with which Gazebo and urdfdom read, takes every file for UTF-8.
+    """
     for mark, name in _BOMS:
         if data.startswith(mark):
             return name
     declared = _DECLARED.match(data[:200])
-    return declared.group(1).decode("ascii").lower() if declared else "utf-8"
+    name = declared.group(1).decode("ascii").lower() if declared else "utf-8"
+    return "utf-8" if name in ("ascii", "us-ascii") else name
 
 
 def encode_like(text: str, data: bytes) -> bytes:

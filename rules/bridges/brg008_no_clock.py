@@ -3,7 +3,8 @@
 With `use_sim_time` the time of a node is zero until a message arrives on /clock. Gazebo publishes
 it only in Gazebo: without a bridge, timers do not run, transforms are never recent, and RViz and
 navigation wait. It is reported where the launch file that starts Gazebo was read in full, and no
-launch file of the package bridges the clock.
+launch file of the package bridges the clock. robot_state_publisher goes on with the time of the
+joint states: where it is the only one that waits, it is a warning.
 
 Fix: add the bridge `/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock`.
 Source: ROS 2, design of clock and time; ros-controls/gz_ros2_control issue 443.
@@ -18,6 +19,7 @@ _IGNORED = BridgeFaultKind.UNKNOWN_KEY
 _CLOCK = "rosgraph_msgs/msg/Clock"
 _MAY_PUBLISH = ("bridge", "clock", "gz", "ign", "sim")
 """Words in the names of programs, of whatever package, that may publish the clock."""
+_GOES_ON = "robot_state_publisher"
 _KNOWN = ("ros_gz_bridge", "ros_ign_bridge", "ros_gz_image", "ros_ign_image")
 
 
@@ -35,12 +37,14 @@ def check(simulations: Simulations) -> Findings:
         others_publish = any(map(_may_publish, nodes))
         if not waiting or left_out or others_publish:
             continue
+        goes_on = all(node.executable.value == _GOES_ON for node in waiting)
         parameter = waiting[0].parameter("use_sim_time")
         others = f" and {len(waiting) - 1} more" if len(waiting) > 1 else ""
         yield finding(
             parameter or waiting[0],
             f"node {waiting[0].executable.value!r}{others} with use_sim_time: no message "
             "arrives on /clock, because no bridge passes it from Gazebo, which this launch starts",
+            severity=Severity.WARNING if goes_on else None,
         )
 
 

@@ -24,7 +24,7 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report programs of available packages that their build files do not name."""
     for graph in launch.entries:
         for node in _known_nodes(graph):
-            holder = package.workspace.package(node.package.value)
+            holder = package.named(node.package.value)
             missing = why_no_program(holder, node.executable.value) if holder is not None else ""
             if missing:
                 yield finding(

@@ -84,6 +84,11 @@ def test_a_byte_order_mark_takes_no_column(encoding: str) -> None:
     assert a.span.place().column == 40
 
 
+def test_what_says_that_it_is_ascii_is_read_as_gazebo_reads_it() -> None:
+    data = '<?xml version="1.0" encoding="ASCII"?><!-- a – b --><a/>'.encode()
+    assert document(decode(data)).root.tag == "a"
+
+
 @pytest.mark.parametrize(
     ("data", "reason"),
     [

@@ -47,6 +47,13 @@ def test_types_that_move(type: str, rest: str, types: list[int]) -> None:
     assert not scene.repairs
 
 
+def test_a_ball_joint_has_no_damping() -> None:
+    """Gazebo reads none: the ball of a caster would brake the robot."""
+    axis = AXIS.replace("</axis>", "<dynamics><damping>10</damping></dynamics></axis>")
+    model, _ = compiled(jointed("ball", axis))
+    assert not model.dof_damping.any()
+
+
 @pytest.mark.parametrize("type", ["screw", "gearbox", "glued", ""])
 def test_other_types_are_held_fixed(type: str) -> None:
     scene = jointed(type, AXIS)

@@ -84,17 +84,15 @@ def _say_why_held(joint: Joint, number: int, ledger: Ledger) -> None:
 
 def _degree(robot: Robot, joint: Joint, motion: Motion, ledger: Ledger) -> Degree:
     kind = _KINDS[motion.freedom]
-    if not joint.axes:
+    # Gazebo, up to Harmonic, reads no damping of ball joints (gz-physics#634).
+    if not joint.axes or motion.freedom is Freedom.BALL:
         return Degree(kind, motion.axis)
     axis = joint.axes[motion.number]
-    damping = _resistance(axis.damping.value)
-    if motion.freedom is Freedom.BALL:
-        return Degree(kind, motion.axis, damping=damping)
     return Degree(
         kind,
         motion.axis,
         None if joint.type.value == "continuous" else _range(joint.scoped_name, axis, ledger),
-        damping,
+        _resistance(axis.damping.value),
         _friction(robot, joint, axis),
         _resistance(axis.stiffness.value),
         clamp(axis.spring_reference.value, -_ENDLESS, _ENDLESS, 0.0),
