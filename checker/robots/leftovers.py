@@ -9,6 +9,7 @@ from itertools import chain, islice
 from checker.package.files_above import README, files_around
 from checker.package.mentions import has_file
 from checker.package.package import Package
+from checker.robots.world_robots import names_world_with_robot
 from checker.source.text import SourceText, without_comments
 from checker.source.xml import XmlDocument
 
@@ -17,7 +18,6 @@ _NAMING = (
     *(".md", ".rst", ".ipynb", ".m"),
 )
 _PAGES = (".ts", ".tsx", ".js", ".jsx", ".html", ".vue")
-_WORLDS = (".sdf", ".world")
 _OF_URDF = ("robot_description", ".urdf", ".xacro")
 """What a launch file contains that may load a description, by whatever name."""
 _TEXTS_LIMIT = 400
@@ -50,17 +50,8 @@ def left_beside_world(package: Package, paths: Iterable[str]) -> frozenset[str]:
     if any(word in text for text in naming for word in _OF_URDF):
         return frozenset()
     started = [without_comments(*it) for it in package.launch_texts.items()]
-    worlds = (it.path for it in package.index.with_suffix(*_WORLDS))
-    named = (it for it in worlds if any(has_file(text, posixpath.basename(it)) for text in started))
-    return _unnamed(package, paths) if any(_has_robot(package, it) for it in named) else frozenset()
-
-
-def _has_robot(package: Package, path: str) -> bool:
-    """Return whether a world itself contains a model with joints and a plugin."""
-    document = package.xml(path)
-    root = document.root if isinstance(document, XmlDocument) else None
-    models = chain.from_iterable(it.all("model") for it in root.all("world")) if root else ()
-    return any(it.child("joint") and it.child("plugin") for it in models)
+    is_beside = names_world_with_robot(package, started, beyond=False)
+    return _unnamed(package, paths) if is_beside else frozenset()
 
 
 def _unnamed(package: Package, paths: Iterable[str]) -> frozenset[str]:

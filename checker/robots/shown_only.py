@@ -13,7 +13,8 @@ from checker.launch.ros2.package_launch import launches_naming
 from checker.model.robot import MUJOCO_SIMULATED, OTHERS_SIMULATED, UNDRIVEN
 from checker.package.mjcf_files import mjcf_files
 from checker.package.package import Package
-from checker.source.text import SourceText
+from checker.robots.world_robots import names_world_with_robot
+from checker.source.text import SourceText, without_comments
 from checker.source.xml import Element, XmlDocument
 
 _OTHERS = re.compile(
@@ -49,11 +50,12 @@ def shown_only(
 
     A description with an element for Gazebo is for a simulator, whatever starts it, unless a
     simulator is given another one, or the launch files that load it start none, and nothing would
-    drive its wheels there. In a package that runs MuJoCo with models of its own, and where no
-    launch file starts another simulator, it takes a plugin or a sensor. So may be a package whose
-    launch files are in another one. In a folder without package.xml and launch files, of which no
-    other launch file names the description, it takes more than friction or colours: a plugin or a
-    sensor.
+    drive its wheels there. Gazebo's controllers may take theirs from it, where the world that a
+    launch file starts has the robot itself, and nothing spawns another. In a package that runs
+    MuJoCo with models of its own, and where no launch file starts another simulator, it takes a
+    plugin or a sensor. So may be a package whose launch files are in another one. In a folder
+    without package.xml and launch files, of which no other launch file names the description, it
+    takes more than friction or colours: a plugin or a sensor.
 
     Args:
         package: The package being checked.
@@ -61,9 +63,15 @@ def shown_only(
         document: The description.
         own: What the launch files of ROS 2 of the package start.
     """
-    root, launch, name = document.root, package.workspace.launch_texts, package.declared_name
-    if package.only or _has_simulated_hardware(root):
-        return ""
+    root = document.root
+    if not package.only and _is_of_world(package, path, own):
+        return OTHERS_SIMULATED
+    return "" if package.only or _has_simulated_hardware(root) else _left(package, path, root, own)
+
+
+def _left(package: Package, path: str, root: Element, own: Iterable[LaunchGraph]) -> str:
+    """Return the clause for a description that may be for a simulator by its text; else empty."""
+    launch, name = package.workspace.launch_texts, package.declared_name
     texts = _starting(launch, posixpath.basename(path))
     if others := _others_simulated(package, root, texts, launch.values()):
         return others
@@ -97,6 +105,22 @@ def _others_simulated(
         return OTHERS_SIMULATED
     alone = not _is_for_gazebo(root, loose=True) and _runs_mujoco_alone(package, launch)
     return MUJOCO_SIMULATED if alone else ""
+
+
+def _is_of_world(package: Package, path: str, own: Iterable[LaunchGraph]) -> bool:
+    """Return whether the world that a launch file starts has a robot, and nothing spawns a file.
+
+    Args:
+        package: The package being checked.
+        path: The path of the description, which the same launch file loads.
+        own: What the launch files of ROS 2 of the package start.
+    """
+    launch = package.workspace.launch_texts
+    if any(option in text for text in launch.values() for option in _FROM_ROS):
+        return False
+    written = {file: without_comments(file, text) for file, text in launch.items()}
+    texts = _starting(written, posixpath.basename(path))
+    return names_world_with_robot(package, texts, beyond=True) and _get_others(package, own, path)
 
 
 def _runs_mujoco_alone(package: Package, launch: Iterable[str]) -> bool:

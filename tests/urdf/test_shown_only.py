@@ -85,6 +85,41 @@ def test_what_is_spawned_needs_it(tmp_path: Path, given: str, severity: Severity
     assert {it.severity for it in report.findings if it.rule == "URD007"} == {severity}
 
 
+_HARDWARE = """<ros2_control name="box" type="system"><hardware>
+<plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware></ros2_control>"""
+_IN_WORLD = _SPAWNED.replace("launch.py']))", "launch.py']), launch_arguments={'gz_args': hall})")
+_IN_WORLD = _IN_WORLD.replace("world, spawner", "world").replace(
+    "\nworld =", "\nhall = os.path.join(share, 'worlds', 'hall.sdf')\nworld ="
+)
+_INCLUDES = "<include><uri>/home/ann/models/crate</uri></include>"
+
+
+@pytest.mark.parametrize(
+    ("launch", "parts", "severity"),
+    [
+        (_IN_WORLD, _INCLUDES, Severity.INFO),
+        (_IN_WORLD, f'<model name="crate">{_INCLUDES}</model>', Severity.INFO),
+        (_IN_WORLD, "<include><uri>model://tree</uri></include>", Severity.WARNING),
+        (_IN_WORLD + "# create -topic robot_description", _INCLUDES, Severity.WARNING),
+    ],
+)
+def test_gazebo_gets_the_robot_of_the_started_world(
+    tmp_path: Path, launch: str, parts: str, severity: Severity
+) -> None:
+    files = {
+        "worlds/hall.sdf": f'<sdf version="1.8"><world name="hall">{parts}</world></sdf>',
+        "models/crate/model.sdf": """<sdf version="1.8"><model name="crate">
+<link name="a"/><link name="b"/><plugin filename="libp.so" name="p"/>
+<joint name="j" type="fixed"><parent>a</parent><child>b</child></joint></model></sdf>""",
+    }
+    for name, text in files.items():
+        path = tmp_path / NAME / name
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+    report = _report(tmp_path, launch, urdf=_SHOWN + _HARDWARE)
+    assert {it.severity for it in report.findings if it.rule == "URD007"} == {severity}
+
+
 def test_a_comment_may_say_what_it_is_for(tmp_path: Path) -> None:
     report = _report(tmp_path, _TOPIC, comment="<!-- A simple model for RViz. -->")
     assert report.verdict is VerdictKind.READY
