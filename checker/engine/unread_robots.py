@@ -101,9 +101,13 @@ def _loads_robot_beside(subject: Subject) -> bool:
 
 
 def _reported(subject: Subject, reasons: Iterable[_Reason]) -> Iterator[NotChecked]:
-    """Yield reasons; what a package without robot includes from ROS keeps nothing from it."""
+    """Yield reasons; they matter little beside a robot that a launch file loads from elsewhere.
+
+    What a package without robot includes from ROS keeps nothing from it.
+    """
+    beside = _loads_robot_beside(subject)
     for reason in reasons:
-        needless = reason.released and _holds_none(subject)
+        needless = beside or (reason.released and _holds_none(subject))
         cause = Cause.NOT_APPLICABLE if needless else Cause.NOT_AT_HAND
         yield NotChecked(ROBOT, reason.text, cause)
 

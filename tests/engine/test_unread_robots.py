@@ -102,6 +102,17 @@ def test_the_robot_of_another_package_is_a_robot(tmp_path: Path) -> None:
     assert "no robot of its own" not in str(sentence(report))
 
 
+def test_beside_it_what_else_is_included_is_only_not_checked(tmp_path: Path) -> None:
+    merger = """
+        IncludeLaunchDescription(PythonLaunchDescriptionSource(os.path.join(
+            get_package_share_directory('acme_lasers'), 'launch', 'merge.launch.py'))),"""
+    report = checked({"@ros2": OF_ANOTHER + merger, ARM: None, **HAND}, tmp_path)
+    assert report.verdict is not VerdictKind.INCOMPLETE
+    text = to_text(Report((report,), {}), MANNER)
+    assert "not checked: robot: launch/arm.launch.py includes" in text
+    assert "no robot was read" not in text
+
+
 MESSAGES = {"../acme_msgs/package.xml": "<package format='3'><name>acme_msgs</name></package>"}
 
 
