@@ -58,15 +58,15 @@ FAULTS = [
     (EXAMPLE, "/world/demo/", "/world/empty/", "BRG004 warning 23"),
     (EXAMPLE, 'gz_topic_name: "/scan"', 'gz_topic_name: "/lidar"', "BRG004 warning 18"),
     (EXAMPLE, STATIC_POSES, STATIC_POSES.replace("Pose_V", "Pose"), "BRG003 error 35"),
-    (EXAMPLE, CLOCK, "", "BRG008 error 28"),
-    (EXAMPLE, 'ros_topic_name: "/clock"', 'ros_topic_name: "/sim/clock"', "BRG008 error 28"),
+    (EXAMPLE, CLOCK, "", "BRG008 warning 28"),
+    (EXAMPLE, 'ros_topic_name: "/clock"', 'ros_topic_name: "/sim/clock"', "BRG008 warning 28"),
     (EXAMPLE, "---\n", "---\nbridges:\n", "BRG006 error 2"),
     (CREATE, "[ignition.msgs.Pose_V'", "[ignition.msgs.PoseV'", "BRG002 error 18"),
     (CREATE, "'@std_msgs/msg/Int32[", "'[std_msgs/msg/Int32[", "BRG001 error 18"),
     (CREATE, "twist + '[ignition.msgs.Twist'", "twist", "BRG001 error 18"),
     (BURGER, "gz.msgs.Model", "gz.msgs.JointState", "BRG002 warning 12"),
     (BURGER, "direction: ROS_TO_GZ", "direction: TO_GZ", "BRG006 error 34"),
-    (DEMO, DESCRIPTION, f"{DESCRIPTION}, 'use_sim_time': True", "BRG008 error 21"),
+    (DEMO, DESCRIPTION, f"{DESCRIPTION}, 'use_sim_time': True", "BRG008 warning 21"),
 ]
 
 
