@@ -373,6 +373,8 @@ TURNING = """<link name="arm"><inertial><mass value="1"/>
 <joint name="j" type="continuous"><parent link="base_link"/><child link="arm"/></joint>"""
 DISPLAYED = """Node(package='robot_state_publisher', executable='robot_state_publisher',
 parameters=[{'robot_description': Command(['xacro ', in_package('urdf', 'arm.urdf.xacro')])}]),"""
+UNSHAPED = TURNING.replace('<geometry><box size="1 1 1"/></geometry>', "", 1)
+UNREADABLE = TURNING.replace("</joint>", '<limit effort="1 N"/></joint>')
 LENS = """<link name="lens"><colision><geometry><box size="1 1 1"/></geometry></colision></link>
 <joint name="j" type="{}"><parent link="mast"/><child link="lens"/><axis xyz="1 0 0"/></joint>
 <link name="mast"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
@@ -494,6 +496,9 @@ CASES: list[tuple[str, Example, str]] = [
     ("SEN029", {**spawned(PLANAR), "launch/scan.launch.xml": SCAN.format("scan_filter")}, "info"),
     ("URD007", spawned(TURNING), "error"),
     ("URD007", {**spawned(TURNING), "@ros2": DISPLAYED}, "info"),
+    ("URD012", spawned(UNSHAPED), "error"),
+    ("URD012", {**spawned(UNSHAPED), "@ros2": DISPLAYED}, "warning"),
+    ("URD012", {**spawned(UNREADABLE), "@ros2": DISPLAYED}, "error"),
     ("URD015", {"@urdf": SHIFTED.format("0 0 0")}, "info"),
     ("URD015", {"@urdf": SHIFTED.format("0 0 1")}, "error"),
     ("URD015", {"@urdf": LENS.format("fixed")}, "warning"),

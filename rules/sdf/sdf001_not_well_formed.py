@@ -11,7 +11,8 @@ and of templates: files with `[PLACEHOLDER]` in a folder `templates`. An empty f
 file names is a warning, unless a xacro file that is loaded includes it; so are such an SRDF, and a
 fragment of a URDF without `<robot>`, which other programs paste into a robot.
 
-Fix: correct the text at the place of the finding; the message says which element is still open.
+Fix: correct what the message names, at the place of the finding; restore an empty file from an
+earlier commit, or delete it where nothing uses it.
 Source: Extensible Markup Language 1.0, "well-formed documents"; tinyxml2 9.0, tested; pluginlib,
 `ClassLoader::processSingleXMLPluginFile`, which reads with tinyxml2.
 """
@@ -93,7 +94,7 @@ def _empty(path: str, fault: XmlFault, package: Package) -> Finding:
     if is_used and not path.startswith("urdf/"):
         return _finding(path, fault)
     is_left = not is_used and path.endswith(_DESCRIPTIONS)
-    advice = ", and no launch file loads it: delete it" if is_left else ""
+    advice = ", and no launch file loads it: restore it, or delete it" if is_left else ""
     return finding(fault.span, f"{path} is empty{advice}", severity=Severity.WARNING)
 
 

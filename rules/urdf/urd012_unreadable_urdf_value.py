@@ -1,17 +1,22 @@
 """A number that URDF readers cannot read, or a missing element or attribute.
 
-urdfdom refuses the whole robot for a joint with such a fault. For a link, it drops the inertial or
-the shape and everything after it in the link: the robot loads, and a part has no mass or touches
-nothing. Such faults are a decimal comma, a unit, a word, `inf`, `nan`, and a blank behind a single
-number. A number below 0 or above 1 in a colour only loses the colour.
+urdfdom refuses the whole robot for a joint with such a fault. Of a link, it reads the inertial,
+then the visuals, then the collisions, and drops all from the fault on: the robot loads, and a part
+has no mass or touches nothing. Such faults are a decimal comma, a unit, a word, `inf`, `nan`, and a
+blank behind a single number. A number below 0 or above 1 in a colour only loses the colour. Where
+no simulator gets the robot, a fault in a part of a link is a warning: RViz shows the robot without
+that part.
 
-Fix: write the number as the message says: with a decimal point, without unit, and with blanks only
-between several numbers.
-Source: urdfdom, `strToDouble`: nothing may follow the number; tried with check_urdf of urdfdom 6.
+Fix: write what the message names, or delete the part that lacks it. A number has a decimal point,
+no unit, and blanks only between several numbers.
+Source: urdfdom, `strToDouble`: nothing may follow the number; tried with check_urdf of urdfdom 6;
+`parseURDF`, which keeps what `parseLink` has read before a fault.
 """
 
+from collections import Counter
 from collections.abc import Iterator
 
+from checker.base.words import and_list, count
 from checker.formats.urdf.description import UrdfDescription
 from checker.formats.urdf.specification import (
     AttributeSpec,
@@ -25,38 +30,69 @@ from checker.source.xml import Element
 
 _ONLY_LOOKS = ("color",)
 """urdfdom ignores a colour that it cannot read."""
+_READ = ("inertial", "visual", "collision")
+"""Parts of a link in the order in which urdfdom reads them."""
 
 
 @rule("URD012", "unreadable-urdf-value", Severity.ERROR, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
     """Report what links and joints lack, and attributes that are not the numbers they should be."""
     for element, attributes in specified_elements(description.document):
-        harmless = description.for_rviz or element.tag in _ONLY_LOOKS
-        level = Severity.WARNING if harmless else None
         missing = [
             name
             for name, spec in attributes.items()
             if spec.required and element.attribute(name) is None
         ]
         if missing:
-            message = f"<{element.tag}> has no {', '.join(missing)}"
-            yield finding(element, message, severity=level, key=message)
+            yield _weighed(element, f"<{element.tag}> has no {', '.join(missing)}", description)
         for name, spec in attributes.items():
-            yield from _numbers(element, name, spec, level)
+            yield from _numbers(element, name, spec, description)
     for colour in description.document.root.descendants("color"):
         yield from _out_of_range(colour)
     for element, what in lacking_elements(description.document):
-        message = f"<{element.tag}> has no {what}"
-        level = Severity.WARNING if description.for_rviz else None
-        yield finding(element, message, severity=level, key=message)
+        yield _weighed(element, f"<{element.tag}> has no {what}", description)
+
+
+def _weighed(
+    element: Element, message: str, description: UrdfDescription, text: Located[str] | None = None
+) -> Finding:
+    """Return a finding that says what the link of an element loses, and weighs by who gets it.
+
+    Args:
+        element: The element.
+        message: What is wrong with it.
+        description: The robot.
+        text: The attribute that is wrong; None for the element itself.
+    """
+    looks = element.tag in _ONLY_LOOKS
+    lost = "" if looks else _lost(element)
+    harmless = description.for_rviz or looks or (lost and description.shown_only)
+    severity = Severity.WARNING if harmless else None
+    return finding(text or element, message + lost, severity=severity, key=message)
+
+
+def _lost(element: Element) -> str:
+    """Return what the link of an element loses, as the end of a message; empty without one."""
+    part = element
+    while part.parent is not None and part.parent.tag != "link":
+        part = part.parent
+    link = part.parent
+    if link is None or part.tag not in _READ:
+        return ""
+    parts = sorted(
+        (it for it in link.children if it.tag in _READ), key=lambda it: _READ.index(it.tag)
+    )
+    lost = Counter(it.tag for it in parts[parts.index(part) :])
+    what = and_list([count(number, tag) for tag, number in lost.items()])
+    return f": urdfdom drops {what} of link {short(link.get('name') or '')!r}"
 
 
 def _numbers(
-    element: Element, name: str, spec: AttributeSpec, level: Severity | None
+    element: Element, name: str, spec: AttributeSpec, description: UrdfDescription
 ) -> Iterator[Finding]:
     text = element.attribute(name)
     if text is not None and spec.numbers and (problem := _problem(text, spec.numbers)):
-        yield finding(text, f"{name} of <{element.tag}> {problem}", severity=level)
+        yield _weighed(element, f"{name} of <{element.tag}> {problem}", description, text)
 
 
 def _out_of_range(colour: Element) -> Iterator[Finding]:
