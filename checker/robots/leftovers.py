@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, islice
 
 from checker.package.files_above import README, files_around
-from checker.package.mentions import has_file
 from checker.package.package import Package
 from checker.robots.world_robots import names_world_with_robot
 from checker.source.text import SourceText, without_comments
@@ -20,6 +20,7 @@ _NAMING = (
 _PAGES = (".ts", ".tsx", ".js", ".jsx", ".html", ".vue")
 _OF_URDF = ("robot_description", ".urdf", ".xacro")
 """What a launch file contains that may load a description, by whatever name."""
+_PATH = re.compile(r"[\w./-]+")
 _TEXTS_LIMIT = 400
 """Files of the workspace that are searched for names of descriptions."""
 
@@ -33,7 +34,7 @@ def leftovers(package: Package, documents: Mapping[str, XmlDocument]) -> frozens
     """
     if len(documents) == 1:
         return frozenset()
-    left = _unnamed(package, documents)
+    left = unnamed(package, documents)
     return left if len(left) < len(documents) else frozenset()
 
 
@@ -51,10 +52,11 @@ def left_beside_world(package: Package, paths: Iterable[str]) -> frozenset[str]:
         return frozenset()
     started = [without_comments(*it) for it in package.launch_texts.items()]
     is_beside = names_world_with_robot(package, started, beyond=False)
-    return _unnamed(package, paths) if is_beside else frozenset()
+    return unnamed(package, paths) if is_beside else frozenset()
 
 
-def _unnamed(package: Package, paths: Iterable[str]) -> frozenset[str]:
+def unnamed(package: Package, paths: Iterable[str]) -> frozenset[str]:
+    """Return the paths of descriptions that no program, launch file or README names."""
     workspace = package.workspace
     packages = {it.root: it for it in (package, *workspace.packages.values())}.values()
     texts = [
@@ -84,4 +86,12 @@ def _names(text: str, path: str) -> bool:
     name = posixpath.basename(path)
     stem = name.partition(".")[0]
     values = (f'"{stem}"', f"'{stem}'", f":={stem}", f": {stem}\n")
-    return has_file(text, name) or any(it in text for it in values)
+    written = _PATH.findall(text) if name in text else ()
+    return any(_is_path_of(it, path) for it in written) or any(it in text for it in values)
+
+
+def _is_path_of(written: str, path: str) -> bool:
+    """Return whether a path with any folders in front, or a part of it, is that of a file."""
+    parts, own = [it for it in written.split("/") if it.strip(".")], path.split("/")
+    shared = min(len(parts), len(own))
+    return bool(parts) and parts[-shared:] == own[-shared:]

@@ -21,6 +21,7 @@ from checker.launch.ros2.graph import Ros2Launch
 from checker.package.files_above import README, files_around
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.robots.beside_robot import left_beside_robot
 from checker.robots.candidates import (
     CANDIDATES_LIMIT,
     Candidate,
@@ -190,6 +191,7 @@ class PackageDescriptions:
             documents = {it.file: it.document for it in descriptions}
             left = dict.fromkeys(leftovers(self._package, documents), "nothing loads")
             beside = left_beside_world(self._package, documents)
+            beside |= left_beside_robot(self._package, self._naming, documents)
             left |= dict.fromkeys(beside, "no launch file loads")
             return [
                 replace(it, unloaded=f"only in {it.file}, which {left[it.file]}")

@@ -59,10 +59,14 @@ def may_be_loaded(naming: Naming, path: str, loaded: Collection[str] = ()) -> bo
     if not all(means_others(text, name, loaded) for text in written):
         return True
     return any(
-        (given and _FILE_ARGUMENT.search(text))
-        or (text not in named.values() and _may_name(text, name))
+        (given and takes_any_file(text)) or (text not in named.values() and _may_name(text, name))
         for text in naming.own.values()
     )
+
+
+def takes_any_file(text: str) -> bool:
+    """Return whether an argument of a launch file is the file of a description."""
+    return _FILE_ARGUMENT.search(text) is not None
 
 
 def means_others(text: str, name: str, loaded: Collection[str]) -> bool:

@@ -8,7 +8,8 @@ of another file, and launch files load another robot or its joints lead to links
 Further values that the file or a launch file names for an argument are tried too. Braces without a
 dollar sign in a `<transmission>` are an info in ROS 2, which does not read it; in a `<gazebo>` that
 only changes how a link looks they are a warning. A tag of xacro in a file that xacro made, and that
-nothing expands again, is a warning: readers of URDF ignore it.
+nothing expands again, is a warning: readers of URDF ignore it. So is an expression in a plain file
+that no launch file loads.
 
 Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. Include a
 part that is included nowhere, or delete it. URD014 reports what xacro refuses from ROS Noetic on.
@@ -36,6 +37,7 @@ from checker.rule import (
     Severity,
     Unchecked,
     finding,
+    lessened,
     replace_text,
     rule,
     unchecked,
@@ -44,7 +46,7 @@ from checker.source.xml import Element
 
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
 _PRIVATE = re.compile(r"double underscore:\s{0,8}(__\w{1,100})")
-_WITHOUT = "without xacro"
+_LOADED = "the file is loaded without xacro"
 _FOREIGN = ("gazebo",)
 """Elements with content that URDF does not define, so braces may mean anything."""
 
@@ -65,9 +67,12 @@ def check(files: UrdfFiles, context: Context) -> Findings:
             yield _refused(fault)
     for description in files.descriptions:
         for found in _left_behind(description, context):
-            # What nothing loads may be given to xacro by hand.
-            if not description.unloaded or found.key != _WITHOUT:
-                yield found
+            yield _of_unloaded(found, description.unloaded) if description.unloaded else found
+
+
+def _of_unloaded(found: Finding, clause: str) -> Finding:
+    stated = replace(found, message=found.message.replace(_LOADED, "xacro alone does so"))
+    return stated if found.severity is Severity.INFO else lessened(stated, clause)
 
 
 def _refused(fault: XacroFault) -> Finding:
@@ -130,8 +135,8 @@ def _leftover_expressions(element: Element) -> Iterator[Finding]:
         if match := _EXPRESSION.search(value):
             yield finding(
                 element.attribute(name) or element,
-                f"{match.group()} is not expanded: the file is loaded without xacro",
-                key=_WITHOUT,
+                f"{match.group()} is not expanded: {_LOADED}",
+                key="without xacro",
             )
         elif match := BRACES.search(value):
             yield finding(

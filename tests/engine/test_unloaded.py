@@ -320,9 +320,11 @@ def test_what_is_in_a_folder_of_old_files_has_warnings(
     assert found.severity is severity
 
 
-@pytest.mark.parametrize(("name", "count"), [("hand.urdf", 0), ("new.urdf", 1)])
+@pytest.mark.parametrize(
+    ("name", "severity"), [("hand.urdf", Severity.WARNING), ("new.urdf", Severity.ERROR)]
+)
 def test_what_nothing_loads_may_be_given_to_xacro_by_hand(
-    name: str, count: int, tmp_path: Path
+    name: str, severity: Severity, tmp_path: Path
 ) -> None:
     _check(tmp_path, _link(_GOOD))
     folder = tmp_path / NAME
@@ -332,7 +334,36 @@ def test_what_nothing_loads_may_be_given_to_xacro_by_hand(
     text = f'<robot name="hand"><link name="$(find {NAME})"/></robot>'
     (folder / "urdf" / name).write_text(text)
     settings = Settings(select=("URD001",), trial=False)
-    assert len(check_package(folder, settings).packages[0].findings) == count
+    (found,) = check_package(folder, settings).packages[0].findings
+    assert found.severity is severity
+    assert ("is loaded without xacro" in found.message) is (severity is Severity.ERROR)
+
+
+_LIBRARY = _LAUNCH.replace(f"'{NAME}'", "'crane_library'").replace("new.urdf", "crane.urdf")
+
+
+@pytest.mark.parametrize(
+    ("launch", "severity"),
+    [
+        (_LIBRARY, Severity.WARNING),
+        (_LIBRARY.replace("'crane.urdf.xacro'", "kind + '.urdf.xacro'"), Severity.WARNING),
+        (_LIBRARY.replace("'crane.urdf.xacro'", "kind + '.urdf'"), Severity.ERROR),
+        (_LIBRARY.replace("'crane.urdf.xacro'", "kind"), Severity.ERROR),
+        (f"{_LIBRARY}# {{'name': 'winch'}}", Severity.ERROR),
+        (f"{_LIBRARY}# ../urdf/winch.urdf", Severity.ERROR),
+    ],
+)
+def test_what_lies_beside_the_launch_of_a_robot_that_is_not_available_has_a_warning(
+    launch: str, severity: Severity, tmp_path: Path
+) -> None:
+    _check(tmp_path, _link(_GOOD))
+    folder = tmp_path / NAME
+    (folder / "urdf/new.urdf.xacro").rename(folder / "urdf/winch.urdf")
+    (folder / "urdf/winch.urdf").write_text(f'<robot name="winch">{_link(_FAULTY)}</robot>')
+    (folder / "launch/show.launch.py").write_text(python(launch))
+    (folder / "params.yaml").write_text("model: 'cranes/winch.urdf'")
+    (found,) = _faults(check_package(folder, Settings(select=("INE002",), trial=False)).packages[0])
+    assert found.severity is severity
 
 
 def test_what_the_model_editor_saved_weighs_less(tmp_path: Path) -> None:
