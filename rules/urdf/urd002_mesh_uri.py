@@ -6,7 +6,7 @@ one that gets its text, as RViz does; elsewhere the part is invisible. `package:
 package: only Pinocchio reads it as `package://`. `$(find <package>)/<path>` is right on every
 machine, but RViz loads it only behind `file://`. The simulation of a robot in SDF does not need the
 file, so this is a warning. A path with a drive letter of Windows to a file that the package has is
-an error.
+an error. URD001 reports a `$(find …)` that is not expanded.
 
 Fix: write `package://<package>/<path>`, or `file://` before `$(find <package>)`.
 Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo Classic
@@ -36,6 +36,7 @@ from checker.source.text import Located
 
 _PACKAGE = re.compile(r"package://([^/]+)/(.*)", re.DOTALL)
 _FETCHED = ("http://", "https://")
+_FOUND = "$(find "
 _NO_PACKAGE, _MODEL = "package:///", "model://"
 _ABSOLUTE = ("/", "file:///", _NO_PACKAGE)
 
@@ -52,7 +53,7 @@ def check(package: Package, description: UrdfDescription) -> Findings:
     in_model = package.is_urdf and outside
     missing: dict[str, list[Located[str]]] = defaultdict(list)
     for uri in description.robot.file_uris:
-        if uri.value.startswith(_FETCHED):
+        if uri.value.startswith(_FETCHED) or _FOUND in uri.value:
             continue
         if own := own_path_on_machine(package, uri.value):
             severity = None if description.for_rviz else Severity.ERROR
@@ -193,6 +194,7 @@ def _example(uri: str) -> dict[str, str]:
 _OWN = "package://acme_rover_sensor_config_1/meshes"
 _MARK = '"/>  <!-- ^ URD002 -->'
 GOOD = [
+    {"@urdf": True, "urdf/arm.urdf": _visual('file://$(find other_arm)/meshes/wheel.dae"/>')},
     {
         "models/wheel/model.config": "<model/>",
         "models/wheel/wheel.urdf": _visual('model://wheel/wheel.dae"/>'),
