@@ -6,12 +6,14 @@ import posixpath
 import re
 from collections.abc import Iterable
 
+from checker.package.files_above import README, files_around
 from checker.package.mentions import has_word
 from checker.package.package import Package
+from checker.package.target import package_around
 from checker.robots.candidates import is_included
 from checker.robots.leftovers import unnamed
 from checker.robots.unloaded import Naming, may_be_loaded, takes_any_file
-from checker.source.text import without_comments
+from checker.source.text import SourceText, without_comments
 
 _PUBLISHED = "robot_description"
 _LOADING = re.compile(rf"{_PUBLISHED}|xacro|MoveItConfigsBuilder")
@@ -19,7 +21,26 @@ _LOADING = re.compile(rf"{_PUBLISHED}|xacro|MoveItConfigsBuilder")
 _SUFFIX = re.compile(r"\.(?:urdf|xacro)\b")
 
 
-def left_beside_robot(package: Package, naming: Naming, paths: Iterable[str]) -> frozenset[str]:
+def naming_of(package: Package) -> Naming:
+    """Return the texts that may name the descriptions of a package."""
+    return Naming(
+        package.workspace.launch_texts,
+        package.naming_launch_texts,
+        [page.text for page in files_around(package, README)],
+    )
+
+
+def left_beside_robot(package: Package, paths: Iterable[str]) -> frozenset[str]:
+    """Return what `_left` does; for a model within a package what that package has so."""
+    around = package_around(package)
+    if around is None or package.exists("package.xml"):
+        return _left(package, paths)
+    folder = package.root.relative_to(around.root).as_posix()
+    left = _left(around, [f"{folder}/{path}" for path in paths])
+    return frozenset(it.removeprefix(f"{folder}/") for it in left)
+
+
+def _left(package: Package, paths: Iterable[str]) -> frozenset[str]:
     """Return paths of descriptions that nothing names, where launch files load another robot.
 
     That robot is not available, or its launch file is not evaluated. Each launch file that may load
@@ -27,17 +48,28 @@ def left_beside_robot(package: Package, naming: Naming, paths: Iterable[str]) ->
 
     Args:
         package: The package being checked.
-        naming: The texts that may name a description.
         paths: Its descriptions, none of which a launch file is known to load.
     """
+    naming = naming_of(package)
     texts = (without_comments(*it) for it in naming.own.items())
     loading = [text for text in texts if _LOADING.search(text)]
     is_open = any(takes_any_file(text) or not _SUFFIX.search(text) for text in loading)
     if is_open or not any(_PUBLISHED in text for text in loading):
         return frozenset()
     left = (it for it in unnamed(package, paths) if not _has_stem(loading, it))
-    return frozenset(
-        it for it in left if not (may_be_loaded(naming, it) or is_included(package, it))
+    alone = (it for it in left if not (may_be_loaded(naming, it) or is_included(package, it)))
+    return frozenset(it for it in alone if not _is_in_world(package, it))
+
+
+def _is_in_world(package: Package, path: str) -> bool:
+    """Return whether an SDF file includes the model folder that a description is in."""
+    folder = posixpath.basename(posixpath.dirname(path))
+    holders = {it.root: it for it in (package, *package.workspace.packages.values())}.values()
+    return bool(folder) and any(
+        isinstance(source := holder.read(entry.path), SourceText)
+        and f"model://{folder}" in source.text
+        for holder in holders
+        for entry in holder.index.with_suffix(".sdf", ".world")
     )
 
 

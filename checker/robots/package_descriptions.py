@@ -18,10 +18,9 @@ from checker.formats.xacro.expansion import Expander, Expansions, Outcome, Unrea
 from checker.formats.xacro.fault import XacroFault, XacroFaultKind
 from checker.launch.ros1.package_launch import SAMPLE_ARGUMENTS
 from checker.launch.ros2.graph import Ros2Launch
-from checker.package.files_above import README, files_around
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.robots.beside_robot import left_beside_robot
+from checker.robots.beside_robot import left_beside_robot, naming_of
 from checker.robots.candidates import (
     CANDIDATES_LIMIT,
     Candidate,
@@ -191,7 +190,7 @@ class PackageDescriptions:
             documents = {it.file: it.document for it in descriptions}
             left = dict.fromkeys(leftovers(self._package, documents), "nothing loads")
             beside = left_beside_world(self._package, documents)
-            beside |= left_beside_robot(self._package, self._naming, documents)
+            beside |= left_beside_robot(self._package, documents)
             left |= dict.fromkeys(beside, "no launch file loads")
             return [
                 replace(it, unloaded=f"only in {it.file}, which {left[it.file]}")
@@ -218,11 +217,7 @@ class PackageDescriptions:
 
     @cached_property
     def _naming(self) -> Naming:
-        return Naming(
-            self._package.workspace.launch_texts,
-            self._package.naming_launch_texts,
-            [page.text for page in files_around(self._package, README)],
-        )
+        return naming_of(self._package)
 
     def _others(self, expanded: Mapping[str, Outcome]) -> Iterator[UrdfDescription | XacroFault]:
         """Yield the robots that other values of arguments make, and the faults that they meet."""

@@ -424,3 +424,27 @@ def test_a_description_beside_a_world_with_a_robot(
 
     (found,) = (it for package in report.packages for it in package.findings)
     assert found.severity is severity
+
+
+@pytest.mark.parametrize(
+    ("included", "severity"), [("model://crate", "warning"), ("model://winch", "error")]
+)
+def test_a_model_beside_the_launch_of_another_robot_has_warnings(
+    included: str, severity: str, tmp_path: Path
+) -> None:
+    world = '<sdf version="1.8"><world name="a"><include><uri>@</uri></include></world></sdf>'
+    files = {
+        "package.xml": PACKAGE_XML,
+        "CMakeLists.txt": CMAKE,
+        "launch/show.launch.py": python(_LIBRARY),
+        "worlds/a.sdf": world.replace("@", included),
+        "models/winch/model.config": "<model><sdf>winch.urdf</sdf></model>",
+        "models/winch/winch.urdf": f'<robot name="winch">{_link(_FAULTY)}</robot>',
+    }
+    for name, text in files.items():
+        path = tmp_path / NAME / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    reports = check_package(tmp_path, Settings(select=("INE002",), trial=False)).packages
+    found = [it for report in reports for it in _faults(report)]
+    assert {str(it.severity) for it in found} == {severity}
