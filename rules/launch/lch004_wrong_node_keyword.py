@@ -39,7 +39,8 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
         for fault in graph.faults:
             if fault.kind is LaunchFaultKind.ATTRIBUTE:
                 new = meant_keyword(fault.name)
-                hint = f"; write {new}" if new else f"; add {_spelling(fault)}"
+                lacking = f", so the launch file stops here: add {_spelling(fault)}"
+                hint = f"; write {new}" if new else lacking
                 release = _RELEASES.search(f"{distro} {fault.span.source.file}")
                 is_old = fault.name in OLD_KEYWORDS
                 works = is_old or fault.name == _FORMERLY_OPTIONAL
