@@ -35,6 +35,8 @@ MADE = """<model><name>Wood</name><version>1.0</version>
 <author><name>A</name><email>a@example.org</email></author><description>Trees</description>
 <sdf version="1.6">made.sdf</sdf></model>
 """
+UNMOVED = """<static>1</static><link name="wall"><inertial><mass>1</mass>
+<inertia><ixx>nan</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link>"""
 CLOCKLESS = """- topic_name: scan
   ros_type_name: sensor_msgs/msg/LaserScan
   gz_type_name: gz.msgs.LaserScan
@@ -540,6 +542,7 @@ CASES: list[tuple[str, Example, str]] = [
     ("LCH004", NAMELESS, "error"),
     ("LCH004", {**NAMELESS, "README.md": "# Lens\n\nFor ROS 2 Foxy.\n"}, "warning"),
     ("BRG008", {"@bridge": CLOCKLESS}, "warning"),
+    ("SDF013", "<static>1</static><static>true</static>", "info"),
     ("KIN002", TWICE_HELD.format("<static>true</static>"), "info"),
     ("KIN016", ARM, "info"),
     ("KIN016", ARM.replace("revolute", "fixed"), "warning"),
@@ -655,6 +658,7 @@ def test_severity_depends_on_the_case(
         ("INE003", SHELF.format(0), "warning", "error"),
         ("INE003", SHELF.format(0.1), "error", "error"),
         ("KIN002", TWICE_HELD.format(""), "info", "error"),
+        ("SDF006", UNMOVED, "warning", "error"),
     ],
 )
 def test_classic_neither_renames_nor_refuses(

@@ -136,7 +136,10 @@ def _compared_values(
 
 
 def _of_file_name(package: Package, element: Element) -> Iterator[tuple[str, str]]:
-    """Yield the values that lead to a file that is there, of a name with one argument in it."""
+    """Yield the values that lead to a file that is there, of a name with one argument in it.
+
+    The argument may be in it several times: `arms/$(arg model)/$(arg model).xacro`.
+    """
     name = _WHOLE.sub(r"$(arg \1)", element.get("filename") or "")
     arguments = set(_ARGUMENT.findall(name))
     if len(arguments) != 1:
@@ -146,9 +149,10 @@ def _of_file_name(package: Package, element: Element) -> Iterator[tuple[str, str
     path = named_path(folder, _ARGUMENT.sub(mark, name))
     if path is None:
         return
-    before, after = path.partition(mark)[0], path.rpartition(mark)[2]
+    before, between, *further = path.split(mark)
     for file in package.index.with_suffix(".xacro", ".urdf"):
         whole = path_of(package, file.path)
-        value = whole.removeprefix(before).removesuffix(after)
-        if whole == f"{before}{value}{after}" and _VALUE.fullmatch(value):
+        rest = whole.removeprefix(before)
+        value = rest.split(between or None, 1)[0] if further else rest.removesuffix(between)
+        if whole == path.replace(mark, value) and _VALUE.fullmatch(value):
             yield argument, value

@@ -16,7 +16,7 @@ In ROS 1, `libgazebo_ros_diff_drive.so` takes `<leftJoint>` for the right wheel,
 
 Fix: reverse the joint's axis, or swap the left and the right joint of the drive. Where a macro
 makes all wheels, turn the origin of the joint instead. Change the sign of y in the joints where
-their names agree with the lists.
+their names agree with the lists. In ROS 1 write `<legacyMode>false</legacyMode>`.
 Source: REP 103: x forward, y left; Gazebo's DiffDrive drives forward with positive rates on both
 sides; gazebo_ros_diff_drive.cpp: `legacyMode` is true by default.
 """
@@ -45,6 +45,7 @@ from checker.rule import (
     rule,
     unchecked,
 )
+from checker.source.xml_insertion import append_to
 
 _LEFT: Vector = (0.0, 1.0, 0.0)
 _UP: Vector = (0.0, 0.0, 1.0)
@@ -54,6 +55,7 @@ _OPPOSITE = {"left": "right", "Left": "Right", "LEFT": "RIGHT"}
 _LEFT_WORD = re.compile(r"(?<![A-Za-z])left(?![a-z])|(?<![A-Z])L(?:eft(?![a-z])|EFT(?![A-Z]))")
 _RIGHT_WORD = re.compile(r"(?<![A-Za-z])right(?![a-z])|(?<![A-Z])R(?:ight(?![a-z])|IGHT(?![A-Z]))")
 _ENDS = ("front", "rear")
+_MODERN = "<legacyMode>false</legacyMode>"
 
 
 @rule("GEO013", "wheel-turns-backwards", Severity.ERROR, Concern.ROBOT)
@@ -312,16 +314,26 @@ def _swapped_sides(drive: WheelDrive, left: Vector, least_share: float) -> Itera
     for at, wheel in placed:
         side = Side.LEFT if at > middle else Side.RIGHT
         if side is not wheel.side and abs(at - middle) > least_share * half > 0:
-            how = f"lists {wheel.name.value!r} as {wheel.side}"
+            how, cure = f"lists {wheel.name.value!r} as {wheel.side}", ""
             if drive.swaps:
                 how = f"takes {wheel.name.value!r} for {wheel.side}, unless <legacyMode> is false"
+                cure = f": write {_MODERN}"
             yield finding(
                 wheel.name,
                 f"{drive.plugin.label} {how}, but its wheel is {abs(at - middle):.3g} m {side} of "
-                "the middle",
+                f"the middle{cure}",
                 key=f"{drive.path} {wheel.side}",
                 related=[(wheel.joint, "the joint")],
+                fix=_made_modern(drive) if drive.swaps else None,
             )
+
+
+def _made_modern(drive: WheelDrive) -> Fix | None:
+    """Return the fix that has a plugin of ROS 1 take the left joint for left, if nothing does."""
+    plugin = drive.plugin
+    if isinstance(plugin, Controller) or plugin.element.child("legacyMode") is not None:
+        return None
+    return Fix(Safety.UNSAFE, (append_to(plugin.element, [_MODERN]),))
 
 
 def _on_both_sides(drive: WheelDrive) -> Iterator[Finding]:
@@ -432,7 +444,6 @@ _FOUR = (
     "leftFrontJoint=front_left rightFrontJoint=front_right leftRearJoint=rear_left "
     "rightRearJoint=rear_right"
 )
-_MODERN = "<legacyMode>false</legacyMode>"
 _Y, _BACK = '0 1 0"/>', '0 -1 0"/>'
 
 

@@ -8,7 +8,8 @@ has none. This rule also checks numbers that the specification limits (a stddev 
 newest version that the target reads has them, and words that it lists (the type of a light). Gazebo
 Classic limits no numbers: it takes a `mu` of -1 as no limit of the friction. It reads older files
 that state one number as the `<sim_time>` of a saved `<state>`: a warning there. So is the type of a
-light, which it reads as a text: the world loads, and only that light differs.
+light, which it reads as a text: the world loads, and only that light differs; and so is an inertia
+of a static model, which nothing moves.
 
 Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
 them.
@@ -32,6 +33,7 @@ from checker.formats.sdf.document import (
 from checker.formats.sdf.poses import in_degrees
 from checker.formats.sdf.schema import ElementType, type_of
 from checker.formats.sdf.unread import is_within
+from checker.model.robot import states_static
 from checker.model.values import parse_number
 from checker.rule import (
     Concern,
@@ -66,14 +68,24 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             continue
         attributes = _attribute_types(element, kind, context)
         for found in _text(element, kind, attributes, context):
-            is_saved = context.release == "classic" and is_within(element, "state")
-            yield replace(found, severity=Severity.WARNING) if is_saved else found
+            is_unused = context.release == "classic" and _is_unused(element)
+            yield replace(found, severity=Severity.WARNING) if is_unused else found
         above = element.parent.tag if element.parent is not None else ""
         choice = words["elements"].get(f"{above}/{element.tag}")
         yield from _word(element.text, f"<{element.tag}>", choice)
         is_light = context.release == "classic" and element.tag == "light"
         for found in _attributes(element, attributes, words["attributes"]):
             yield replace(found, severity=Severity.WARNING) if is_light else found
+
+
+def _is_unused(element: Element) -> bool:
+    """Return whether a value is in a saved state, or is about the mass of a static model."""
+    if not is_within(element, "inertial"):
+        return is_within(element, "state")
+    model: Element | None = element
+    while model is not None and model.tag != "model":
+        model = model.parent
+    return model is not None and states_static(model)
 
 
 def _attribute_types(element: Element, kind: ElementType, context: Context) -> _Attributes:

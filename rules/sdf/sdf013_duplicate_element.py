@@ -54,11 +54,18 @@ def _is_single(parent: Element, kind: ElementType, tag: str) -> bool:
 
 
 def _content(element: Element) -> list[tuple[object, ...]]:
-    """Return the content of an element, without spaces and the order of attributes."""
+    """Return the content of an element, without spaces and the order of attributes.
+
+    `true` is the same as `1`.
+    """
     return [
-        (node.tag, tuple(sorted(node.attributes.items())), " ".join(node.raw_text.split()))
+        (node.tag, tuple(sorted(node.attributes.items())), _value(" ".join(node.raw_text.split())))
         for node in (element, *element.descendants())
     ]
+
+
+def _value(text: str) -> str:
+    return {"true": "1", "false": "0"}.get(text, text)
 
 
 GOOD = [

@@ -69,6 +69,12 @@ IN_A_MACRO = f"""<xacro:macro name="arm" params="end">
   <xacro:if value="${{end == 'hand'}}">{HAND}</xacro:if>
 </xacro:macro>
 <xacro:arm end="$(arg tool)"/>"""
+TWICE = INCLUDE.replace("tools/", "tools/$(arg tool)/arm_")
+IN_FOLDERS = (
+    ("urdf/tools/none/arm_none.xacro", f"{HEAD}</robot>"),
+    ("urdf/tools/hand/arm_hand.xacro", f"{HEAD}{HAND}</robot>"),
+    ("urdf/tools/other.xacro", f"{HEAD}</robot>"),
+)
 BY_PYTHON = f"{PROPERTY}<xacro:if value='${{own.startswith(\"ha\")}}'>{HAND}</xacro:if>"
 
 
@@ -78,6 +84,7 @@ BY_PYTHON = f"{PROPERTY}<xacro:if value='${{own.startswith(\"ha\")}}'>{HAND}</xa
         (TEST, ()),
         (INCLUDE, PARTS),
         (COMPUTED, PARTS),
+        (TWICE, IN_FOLDERS),
         (IN_A_MACRO, ()),
         (BY_PYTHON, [("launch/view.launch.py", LAUNCH)]),
     ],
@@ -85,6 +92,7 @@ BY_PYTHON = f"{PROPERTY}<xacro:if value='${{own.startswith(\"ha\")}}'>{HAND}</xa
         "compared",
         "file name",
         "property in a file name",
+        "twice in a file name",
         "parameter",
         "choice of a launch file",
     ],
