@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from checker.package.files_above import README, files_around
 from checker.package.mentions import has_word
@@ -19,15 +19,32 @@ _PUBLISHED = "robot_description"
 _LOADING = re.compile(rf"{_PUBLISHED}|xacro|MoveItConfigsBuilder")
 """What a launch file contains that loads a robot, or may."""
 _SUFFIX = re.compile(r"\.(?:urdf|xacro)\b")
+_FOUND = re.compile(r"\$\(find\s{1,8}([\w.-]{1,200})\s{0,8}\)/([\w./-]{1,300})")
 
 
 def naming_of(package: Package) -> Naming:
-    """Return the texts that may name the descriptions of a package."""
+    """Return the texts that may name the descriptions of a package.
+
+    The files of other packages that launch files of ROS 1 name and that exist are left out.
+    """
+
+    def without_theirs(texts: Mapping[str, str]) -> dict[str, str]:
+        return {
+            file: _FOUND.sub(lambda it: "" if _is_theirs(package, *it.groups()) else it[0], text)
+            for file, text in texts.items()
+        }
+
     return Naming(
-        package.workspace.launch_texts,
-        package.naming_launch_texts,
+        without_theirs(package.workspace.launch_texts),
+        without_theirs(package.naming_launch_texts),
         [page.text for page in files_around(package, README)],
     )
+
+
+def _is_theirs(package: Package, name: str, path: str) -> bool:
+    """Return whether another package, which is not around this one, has a file."""
+    other = package.named(name)
+    return other is not None and not package.root.is_relative_to(other.root) and other.exists(path)
 
 
 def left_beside_robot(package: Package, paths: Iterable[str]) -> frozenset[str]:
@@ -51,7 +68,7 @@ def _left(package: Package, paths: Iterable[str]) -> frozenset[str]:
         paths: Its descriptions, none of which a launch file is known to load.
     """
     naming = naming_of(package)
-    texts = (without_comments(*it) for it in naming.own.items())
+    texts = (without_comments(*it) for it in package.naming_launch_texts.items())
     loading = [text for text in texts if _LOADING.search(text)]
     is_open = any(takes_any_file(text) or not _SUFFIX.search(text) for text in loading)
     if is_open or not any(_PUBLISHED in text for text in loading):

@@ -16,9 +16,13 @@ _NAME = re.compile(
 _FILE_ARGUMENT = re.compile(
     r"""\bdefault(?:_value)?\s{0,8}=[^<>\n]{0,300}\.(?:urdf|xacro)\b"""
     r"""|(?:DeclareLaunchArgument\(\s{0,80}(?:name\s{0,8}=\s{0,8})?|<arg\s{1,8}name\s{0,8}=\s{0,8})"""
-    r"""["'](?:model|(?:urdf|xacro|description|robot)_?(?:file|path|model)\w{0,40})["']"""
+    r"""["'](model|(?:urdf|xacro|description|robot)_?(?:file|path|model)\w{0,40})["']"""
 )
 """An argument of a launch file that is the file itself: `model:=urdf/arm.urdf`."""
+_IN_NAME = re.compile(
+    r"""\$\((?:arg|var)\s{1,8}([\w.-]{1,100})\s{0,8}\)[^\s"'<>/]{0,100}\.(?:urdf|xacro)\b"""
+)
+"""An argument that is a part of the name of a file: `arm_$(arg model).urdf`."""
 _COMPUTED = re.compile(r"\$\([^()]{0,100}\)|\$?\{[^{}]{0,100}\}")
 _ARGUMENT = re.compile(r"\$\(arg\s{1,8}([\w.-]{1,100})\s{0,8}\)")
 _DECLARED = re.compile(r"<arg\s[^<>]{1,400}>")
@@ -66,7 +70,8 @@ def may_be_loaded(naming: Naming, path: str, loaded: Collection[str] = ()) -> bo
 
 def takes_any_file(text: str) -> bool:
     """Return whether an argument of a launch file is the file of a description."""
-    return _FILE_ARGUMENT.search(text) is not None
+    parts = _IN_NAME.findall(text)
+    return any(name not in parts for name in _FILE_ARGUMENT.findall(text))
 
 
 def means_others(text: str, name: str, loaded: Collection[str]) -> bool:

@@ -448,3 +448,43 @@ def test_a_model_beside_the_launch_of_another_robot_has_warnings(
     reports = check_package(tmp_path, Settings(select=("INE002",), trial=False)).packages
     found = [it for report in reports for it in _faults(report)]
     assert {str(it.severity) for it in found} == {severity}
+
+
+_CRANE = """<launch><arg name="model" default="$(env CRANE)"/>
+<param name="robot_description"
+  command="$(find xacro)/xacro $(find crane_library)/urdf/crane_$(arg model).urdf.xacro"/></launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("launch", "theirs", "severity"),
+    [
+        (_CRANE, "$(find yard)/urdf/winch.urdf", "warning"),
+        # The other package has no such file: the name may be an old one of this package.
+        (_CRANE, "$(find yard)/old/winch.urdf", "error"),
+        (_CRANE, f"$(find {NAME})/urdf/winch.urdf", "error"),
+        # The argument may be the file, or its name.
+        (_CRANE.replace("crane_$(arg model)", "crane"), "a", "error"),
+        (_CRANE.replace("crane_$(arg model).urdf.xacro", "$(arg model).urdf"), "a", "error"),
+    ],
+)
+def test_what_lies_beside_a_launch_of_ros1_of_another_robot_has_warnings(
+    launch: str, theirs: str, severity: str, tmp_path: Path
+) -> None:
+    winch = f'<robot name="winch">{_link(_FAULTY)}</robot>'
+    manifest = "<package format='2'><name>@</name><buildtool_depend>catkin</buildtool_depend>"
+    files = {
+        f"{NAME}/package.xml": f"{manifest}</package>".replace("@", NAME),
+        f"{NAME}/launch/show.launch": launch,
+        f"{NAME}/drafts/winch.urdf": winch,
+        "yard/package.xml": f"{manifest}</package>".replace("@", "yard"),
+        "yard/launch/yard.launch": f"<launch><param name='a' command='cat {theirs}'/></launch>",
+        "yard/urdf/winch.urdf": winch.replace(_FAULTY, _GOOD),
+    }
+    for name, text in files.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    reports = check_package(tmp_path, Settings(select=("INE002",), trial=False)).packages
+    found = [it for report in reports for it in _faults(report)]
+    assert {str(it.severity) for it in found} == {severity}
