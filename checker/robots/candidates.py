@@ -45,6 +45,7 @@ class Candidate(Record):
         spawned: Whether the launch file whose arguments these are spawns a robot.
         shown: As `given`, of launch files that spawn nothing beside those that spawn.
         misplaced: Whether a launch file names it by the path of another folder; others load robots.
+        as_it_is: Whether all launch files that load it load its text, without xacro.
     """
 
     path: str
@@ -58,6 +59,7 @@ class Candidate(Record):
     spawned: bool = False
     shown: tuple[Mapping[str, str], ...] = ()
     misplaced: bool = False
+    as_it_is: bool = False
 
     def assumed_values(self, number: int, given: Collection[str]) -> dict[str, str]:
         """Return the values of arguments that are not given.
@@ -119,12 +121,14 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
             candidate = Candidate(
                 *(path, load.args, counts, by_xacro, missing, *allowed, given, started.spawned),
                 misplaced=started.misplaced,
+                as_it_is=load.as_it_is,
             )
             before = chosen.get(path, candidate)
             misplaced = before.misplaced and started.misplaced
+            as_it_is = before.as_it_is and load.as_it_is
             if before.spawned and not started.spawned:
                 shown = before.shown + given
-                chosen[path] = replace(before, shown=shown, misplaced=misplaced)
+                chosen[path] = replace(before, shown=shown, misplaced=misplaced, as_it_is=as_it_is)
                 continue
             every = before.given if given and load.args in before.given else before.given + given
             # Of several ways to start it, one that is known counts before one that is not.
@@ -132,7 +136,9 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
             runs = candidate.loaded and not before.loaded
             taken = candidate if known or runs else before
             loaded = before.loaded or candidate.loaded
-            chosen[path] = replace(taken, loaded=loaded, given=every, misplaced=misplaced)
+            chosen[path] = replace(
+                taken, loaded=loaded, given=every, misplaced=misplaced, as_it_is=as_it_is
+            )
     chosen = _with_rightly_named(chosen)
     if not chosen or package.kind is PackageKind.URDF_DESCRIPTION:
         others = [path for path in _outermost(package) if path not in chosen]

@@ -482,6 +482,8 @@ def _further(candidate: Candidate) -> range:
 
 def _needs_xacro(package: Package, candidate: Candidate) -> bool:
     """Return whether expanding a file can change it; a file that is empty has nothing to expand."""
+    if candidate.as_it_is:
+        return False
     source = package.read(candidate.path)
     if not isinstance(source, SourceText) or not source.text.strip():
         return False

@@ -14,6 +14,7 @@ from checker.launch.ros1.launch_file import loads
 from checker.launch.ros1.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
 from checker.launch.ros2.graph import LaunchGraph, Ros2Launch
 from checker.launch.ros2.package_launch import is_ros2_only, launches_naming
+from checker.package.mentions import has_word
 from checker.package.package import Package
 from checker.robots.candidates import StartedLoad
 from checker.robots.other_robots import TRIED_LIMIT
@@ -48,6 +49,7 @@ def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[Started
     yield from (load for _, load in own)
     yield from _classic_loads(package)
     yield from (load for _, load in theirs)
+    yield from _plain_loads_of_others(package)
     others = (each for pair in (*own, *theirs) for each in _of_other_choices(package, *pair))
     yield from islice({each.load.path: each for each in others}.values(), TRIED_LIMIT)
 
@@ -92,6 +94,19 @@ def _classic_loads(package: Package) -> list[StartedLoad]:
         if isinstance(document, XmlDocument)
         for load in loads(expand_launch(document, SAMPLE_ARGUMENTS, files))
     ]
+
+
+def _plain_loads_of_others(package: Package) -> Iterator[StartedLoad]:
+    """Yield the files of a package that launch files of ROS 1 of others load as they are."""
+    name = package.declared_name
+    found = [
+        load
+        for other in package.other_packages
+        if any(has_word(text, name) for text in other.launch_texts.values())
+        for load in _classic_loads(other)
+    ]
+    expanded = {it.load.path for it in found if it.load.by_xacro}
+    yield from (it for it in found if it.load.as_it_is and it.load.path not in expanded)
 
 
 def _loads_something(package: Package, path: str) -> bool:

@@ -7,9 +7,10 @@ a robot that no file includes at present is an info: it has no link, or it lacks
 of another file, and launch files load another robot or its joints lead to links of others.
 Further values that the file or a launch file names for an argument are tried too. Braces without a
 dollar sign in a `<transmission>` are an info in ROS 2, which does not read it; in a `<gazebo>` that
-only changes how a link looks they are a warning. A tag of xacro in a file that xacro made, and that
-nothing expands again, is a warning: readers of URDF ignore it. So is an expression in a plain file
-that no launch file loads.
+only changes how a link looks they are a warning. A tag of xacro in a file that nothing expands is a
+warning: readers of URDF ignore it. Such a file was made by xacro, or launch files of ROS 1 load its
+text, with `cat` or `textfile`. An expression in a plain file that no launch file loads is a warning
+too.
 
 Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. Include a
 part that is included nowhere, or delete it. URD014 reports what xacro refuses from ROS Noetic on.
@@ -116,18 +117,17 @@ def _left_behind(description: UrdfDescription, context: Context) -> Iterator[Fin
                 yield from (replace(it, severity=Severity.INFO) for it in found)
         else:
             for element in (child, *child.descendants()):
-                yield from _leftover_expressions(element)
-                yield from _leftover_tag(element)
+                is_tag = element.tag.startswith("xacro:")
+                yield from _leftover_tag(element) if is_tag else _leftover_expressions(element)
 
 
 def _leftover_tag(element: Element) -> Iterator[Finding]:
-    if element.tag.startswith("xacro:"):
-        yield finding(
-            element,
-            f"<{element.tag}> is not expanded: readers of URDF ignore it",
-            severity=Severity.WARNING,
-            key="left by xacro",
-        )
+    yield finding(
+        element,
+        f"<{element.tag}> is not expanded: readers of URDF ignore it",
+        severity=Severity.WARNING,
+        key="left by xacro",
+    )
 
 
 def _leftover_expressions(element: Element) -> Iterator[Finding]:
@@ -168,6 +168,7 @@ _LOADING = """<launch>
                   name:=$(arg name)"/>
 </launch>
 """
+_CAT = _LOADING.replace("$(find xacro)/xacro", "cat").replace("name:=$(arg name)", "")
 _HEAD = '<robot name="rover" xmlns:xacro="http://ros.org/wiki/xacro">\n'
 
 
@@ -233,6 +234,12 @@ BAD = [
             "name:=$(arg name)", ""
         ),
         _DESCRIPTION: f'<robot name="rover"><macro name="m"/>{_MARK}\n<link name="a"/></robot>',
+    },
+    {_LAUNCH: _CAT, _DESCRIPTION: f'{_HEAD}<link name="${{1 + 1}}"/>{_MARK}\n</robot>'},
+    {
+        _LAUNCH: _CAT,
+        _DESCRIPTION: f'{_HEAD}<xacro:include filename="$(find tools)/a.xacro"/>{_MARK}\n'
+        '<link name="a"/></robot>',
     },
     {_LAUNCH: _LOADING, _DESCRIPTION: "", "@reported": [f"{_DESCRIPTION}:1"]},
     {"@urdf": f'<link name="$(arg name)/hand"/>{_MARK}'},

@@ -36,12 +36,14 @@ class Load(Record):
         args: Arguments that xacro is given.
         by_xacro: Whether xacro reads it; otherwise it is loaded as it is.
         unknown: Names of arguments whose values are only known at launch.
+        as_it_is: Whether it is known that the text of the file is loaded, and nothing else.
     """
 
     path: str
     args: Mapping[str, str]
     by_xacro: bool
     unknown: tuple[str, ...] = ()
+    as_it_is: bool = False
 
 
 def loads(graph: LaunchGraph) -> Iterator[Load]:
@@ -67,17 +69,19 @@ def read_command(command: str) -> Iterator[Load]:
     pairs = (word.partition(":=") for word in words)
     given = {name: value for name, assigned, value in pairs if assigned}
     args = {name: value for name, value in given.items() if is_known(value)}
-    tools = {
-        program_word.rpartition("/")[2].removesuffix(".py") for program_word in (program, *words)
-    }
+    tools = {_name_of(word) for word in (program, *words)}
     unknown = tuple(name for name in given if name not in args)
-    yield Load(file, args, "xacro" in tools, unknown)
+    yield Load(file, args, "xacro" in tools, unknown, _name_of(program) == "cat")
+
+
+def _name_of(program: str) -> str:
+    return program.rpartition("/")[2].removesuffix(".py")
 
 
 def _plain(text: str) -> Iterator[Load]:
     file = _placed(text.strip())
     if _is_description(file):
-        yield Load(file, {}, by_xacro=False)
+        yield Load(file, {}, by_xacro=False, as_it_is=True)
 
 
 def _is_description(word: str) -> bool:
