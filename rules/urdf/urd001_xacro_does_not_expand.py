@@ -12,7 +12,8 @@ warning: readers of URDF ignore it. Such a file was made by xacro, or launch fil
 text, with `cat` or `textfile`. An expression in a plain file that no launch file loads is a warning
 too.
 
-Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. Include a
+Fix: correct the error that the message names; to reproduce it, run `xacro FILE name:=x`. Where the
+file is loaded without xacro, load it with xacro instead of `cat`, or write the values. Include a
 part that is included nowhere, or delete it. URD014 reports what xacro refuses from ROS Noetic on.
 Source: xacro, "unknown macro name", "Undefined substitution argument"; ros/xacro#282.
 """
@@ -45,7 +46,7 @@ from checker.rule import (
 )
 from checker.source.xml import Element
 
-_EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
+_EXPRESSION = re.compile(r"\$\{[^}]{0,500}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
 _PRIVATE = re.compile(r"double underscore:\s{0,8}(__\w{1,100})")
 _LOADED = "the file is loaded without xacro"
 _FOREIGN = ("gazebo",)

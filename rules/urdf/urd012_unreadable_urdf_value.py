@@ -5,7 +5,7 @@ then the visuals, then the collisions, and drops all from the fault on: the robo
 has no mass or touches nothing. Such faults are a decimal comma, a unit, a word, `inf`, `nan`, and a
 blank behind a single number. A number below 0 or above 1 in a colour only loses the colour. Where
 no simulator gets the robot, a fault in a part of a link is a warning: RViz shows the robot without
-that part.
+that part. URD001 reports a `${…}` that is not expanded.
 
 Fix: write what the message names, or delete the part that lacks it. A number has a decimal point,
 no unit, and blanks only between several numbers.
@@ -23,6 +23,7 @@ from checker.formats.urdf.specification import (
     lacking_elements,
     specified_elements,
 )
+from checker.formats.xacro.names import EXPRESSION
 from checker.model.values import parse_number, short
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
@@ -111,6 +112,8 @@ def _out_of_range(colour: Element) -> Iterator[Finding]:
 def _problem(text: Located[str], count: int) -> str:
     """Return what is wrong with the numbers of an attribute; nothing if they can be read."""
     words = text.value.split()
+    if EXPRESSION.search(text.value):
+        return ""
     for word in words:
         value = parse_number(word)
         if value is None:
@@ -140,7 +143,11 @@ def _marked(example: dict[str, str], line: str) -> dict[str, str]:
     return {"@urdf": text.replace(line, f"{line}  <!-- ^ URD012 -->", 1)}
 
 
-GOOD = [_marked(_link(), "nothing"), _marked(_link(size=" 1  1e0 +1. "), "nothing")]
+GOOD = [
+    _marked(_link(), "nothing"),
+    _marked(_link(size=" 1  1e0 +1. "), "nothing"),
+    _marked(_link('value="${0.5 * 2}"'), "nothing"),
+]
 BAD = [
     _marked(_link('value="1,5"'), '<mass value="1,5"/>'),
     _marked(_link('value="1 "'), '<mass value="1 "/>'),
