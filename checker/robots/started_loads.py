@@ -83,9 +83,10 @@ def _of_other_choices(
                 yield replace(started, load=load)
 
 
-def _classic_loads(package: Package) -> list[StartedLoad]:
+def _classic_loads(package: Package, name: str = "") -> list[StartedLoad]:
+    """Return what launch files of ROS 1 load; with a name only those that contain this word."""
     launch_files = package.index.with_suffix(*_LAUNCH_SUFFIXES)[:_LAUNCH_LIMIT]
-    paths = [file.path for file in launch_files if _loads_something(package, file.path)]
+    paths = [file.path for file in launch_files if _loads_something(package, file.path, name)]
     files, documents = LaunchFiles(package), map(package.xml, paths)
     runs = not is_ros2_only(package)
     return [
@@ -99,16 +100,13 @@ def _classic_loads(package: Package) -> list[StartedLoad]:
 def _plain_loads_of_others(package: Package) -> Iterator[StartedLoad]:
     """Yield the files of a package that launch files of ROS 1 of others load as they are."""
     name = package.declared_name
-    found = [
-        load
-        for other in package.other_packages
-        if any(has_word(text, name) for text in other.launch_texts.values())
-        for load in _classic_loads(other)
-    ]
+    found = [load for other in package.other_packages for load in _classic_loads(other, name)]
     expanded = {it.load.path for it in found if it.load.by_xacro}
     yield from (it for it in found if it.load.as_it_is and it.load.path not in expanded)
 
 
-def _loads_something(package: Package, path: str) -> bool:
+def _loads_something(package: Package, path: str, name: str) -> bool:
     source = package.read(path)
-    return isinstance(source, SourceText) and _LOADS.search(source.text) is not None
+    if not isinstance(source, SourceText) or _LOADS.search(source.text) is None:
+        return False
+    return not name or has_word(source.text, name)
