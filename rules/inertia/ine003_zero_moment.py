@@ -1,24 +1,20 @@
 """A principal moment of inertia is zero: the link has no resistance to rotation about that axis.
 
-MuJoCo refuses such a body, and other engines divide by the moment. Gazebo Classic takes 1 kg·m²
-about each axis where all three are zero: the robot moves, with the flywheel of a much larger part,
-which is a warning. Only a line without width has one moment of zero, and only a point has three. If
-the part is fixed to others with inertia, they move as one body; then this is an info.
+MuJoCo refuses such a body, and other engines divide by the moment. Only a line without width has
+one moment of zero, and only a point has three. If the part is fixed to others with inertia, they
+move as one body; then this is an info.
 
 Fix: state the moments of the part itself, or of a small box of its size: m/12·(b² + c²).
-Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must be positive;
-gazebo-classic 11, ODE, `dBodySetMass`: the inverse of an inertia without one is the identity.
+Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must be positive.
 """
 
 from checker.physics.mass.even_inertia import moments_fix
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("INE003", "zero-moment", Severity.ERROR, Concern.ROBOT)
-def check(
-    masses: MassProperties, context: Context, *, least: float = 1e-14, relative: float = 1e-9
-) -> Findings:
+def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-9) -> Findings:
     """Report possible inertias with a principal moment of zero.
 
     Options:
@@ -44,14 +40,9 @@ def check(
             inertia.moments_span,
             f"link {inertia.link.name.value!r} has principal moments of inertia of {moments} kg·m²,"
             f" expected all above {expected}{tied}",
-            severity=_severity(inertia, context) if alone else Severity.INFO,
+            severity=Severity.ERROR if alone else Severity.INFO,
             fix=moments_fix(masses.robot, inertia.link) if alone else None,
         )
-
-
-def _severity(inertia: LinkInertia, context: Context) -> Severity:
-    replaced = context.release == "classic" and inertia.principal[2] == 0.0
-    return Severity.WARNING if replaced else Severity.ERROR
 
 
 def _possible(inertia: LinkInertia, tolerance: float = 1e-12) -> bool:
