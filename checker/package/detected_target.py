@@ -137,7 +137,8 @@ def _common_target(package: Package) -> DetectedTarget | None:
     alike = next(iter(found.values())) if len(found) == 1 else []
     family = f"{package.declared_name.partition('_')[0]}_"
     kin = (other for other in others if other.declared_name.startswith(family))
-    return alike[0] if alike and (len(alike) > 1 or _targets_of(kin, "", "")) else None
+    counts = len(alike) > 1 or any(_shown_target(other, "").reason for other in kin)
+    return alike[0] if alike and counts else None
 
 
 def launching(package: Package) -> Iterator[Package]:

@@ -23,12 +23,11 @@ _ON_DRIVE = re.compile(r"(?:file:/{2,3})?[A-Za-z]:[/\\\\]+(.*)", re.DOTALL)
 _AT_HOME = re.compile(
     r"(?:file://)?/(?:(?:home|Users|media|run/media)/[^/]+|root|mnt)/(.*)", re.DOTALL
 )
-_BELOW_HOME = re.compile(r"(?:~|\$HOME|\$\(env HOME\))/(.*)", re.DOTALL)
+_HOME = r"(?:~|\$HOME|\$\(env HOME\))"
+_BELOW_HOME = re.compile(rf"{_HOME}/(.*)", re.DOTALL)
 """A path in the home of the user who starts the launch file."""
 _IN_WORKSPACE = re.compile(
-    rf"(?:file://|{_BELOW_HOME.pattern.partition('/')[0]})?"
-    r"/(?!opt/ros/)(?:.*/)?(?:src|install|devel)/.*",
-    re.DOTALL,
+    rf"(?:file://|{_HOME})?/(?!opt/ros/)(?:.*/)?(?:src|install|devel)/.*", re.DOTALL
 )
 _INSTALLED = re.compile(
     r"(?:file://)?/(?:.*/)?(?:install(?:/[^/]+)?|devel|opt/ros/\w+)/share/([^/]+)/(.+)", re.DOTALL

@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from checker.base.words import count, plain, shortened
 from checker.finding import Place, Severity
@@ -64,12 +65,11 @@ def _what_to_write(finding: ReportedFinding, package: PackageReport) -> str:
     files = {it.file for it in lines}
     if len(files) != 1 or not all(it.is_line and it.after for it in lines):
         return ""
-    parts = [part.strip() for it in lines for part in it.after.split("\n")]
-    texts = (" ".join(part.strip() for part in it.after.split("\n")) for it in lines)
-    text = plain(" ".join(dict.fromkeys(texts)))
-    more = ""
-    if len(text) > SNIPPET_WIDTH and all(map(_ELEMENT.fullmatch, parts)):
-        text, left = plain(" ".join(parts[:_FIRST])), len(parts) - _FIRST
+    parts = [[part.strip() for part in it.after.split("\n")] for it in lines]
+    text, more = plain(" ".join(dict.fromkeys(map(" ".join, parts)))), ""
+    every = [*chain.from_iterable(parts)]
+    if len(text) > SNIPPET_WIDTH and all(map(_ELEMENT.fullmatch, every)):
+        text, left = plain(" ".join(every[:_FIRST])), len(every) - _FIRST
         more = f" and {count(left, 'more line')}" if left > 0 else ""
     if "\n" in text or len(text) > SNIPPET_WIDTH:
         return ""

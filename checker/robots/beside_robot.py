@@ -81,11 +81,10 @@ def _left(package: Package, paths: Iterable[str]) -> frozenset[str]:
 def _is_in_world(package: Package, path: str) -> bool:
     """Return whether an SDF file includes the model folder that a description is in."""
     folder = posixpath.basename(posixpath.dirname(path))
-    holders = {it.root: it for it in (package, *package.workspace.packages.values())}.values()
     return bool(folder) and any(
         isinstance(source := holder.read(entry.path), SourceText)
         and f"model://{folder}" in source.text
-        for holder in holders
+        for holder in (package, *package.other_packages)
         for entry in holder.index.with_suffix(".sdf", ".world")
     )
 

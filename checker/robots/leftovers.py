@@ -58,7 +58,7 @@ def left_beside_world(package: Package, paths: Iterable[str]) -> frozenset[str]:
 def unnamed(package: Package, paths: Iterable[str]) -> frozenset[str]:
     """Return the paths of descriptions that no program, launch file or README names."""
     workspace = package.workspace
-    packages = {it.root: it for it in (package, *workspace.packages.values())}.values()
+    packages = (package, *package.other_packages)
     texts = [
         *islice(chain.from_iterable(_texts(it, _NAMING) for it in packages), _TEXTS_LIMIT),
         *workspace.launch_texts.values(),

@@ -64,9 +64,11 @@ def shown_only(
         own: What the launch files of ROS 2 of the package start.
     """
     root = document.root
-    if not package.only and _is_of_world(package, path, own):
+    if package.only:
+        return ""
+    if _is_of_world(package, path, own):
         return OTHERS_SIMULATED
-    return "" if package.only or _has_simulated_hardware(root) else _left(package, path, root, own)
+    return "" if _has_simulated_hardware(root) else _left(package, path, root, own)
 
 
 def _left(package: Package, path: str, root: Element, own: Iterable[LaunchGraph]) -> str:

@@ -21,11 +21,10 @@ def names_world_with_robot(package: Package, texts: Collection[str], *, beyond: 
         texts: Launch files, without comments.
         beyond: Whether to look for worlds in the other packages of the workspace too.
     """
-    others = package.workspace.packages.values() if beyond else ()
-    holders = {it.root: it for it in (package, *others)}.values()
+    holders = (package, *(package.other_packages if beyond else ()))
     return any(
         any(has_file(text, posixpath.basename(entry.path)) for text in texts)
-        and any(_is_robot(model, [*holders]) for model in _models(holder, entry.path, "world"))
+        and any(_is_robot(model, holders) for model in _models(holder, entry.path, "world"))
         for holder in holders
         for entry in holder.index.with_suffix(*_WORLDS)
     )

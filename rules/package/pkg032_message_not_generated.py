@@ -36,14 +36,14 @@ def check(package: Package) -> Findings:
     """Report imports at the top of Python files from packages of the workspace."""
     generated: dict[str, frozenset[str]] = {}
     for name, kind, text in _imports(package):
+        holder = package.named(name)
         if name not in generated:
-            generated[name] = _generated(package.named(name))
+            generated[name] = _generated(holder)
         known = generated[name]
         file = f"{kind}/{text.value}.{kind}"
         if not known or file in known:
             continue
         of_kind = [posixpath.basename(it) for it in sorted(known) if it.startswith(f"{kind}/")]
-        holder = package.named(name)
         there = holder is not None and holder.exists(file)
         hint = "" if there else Suggestions(of_kind).hint(posixpath.basename(file))
         yield finding(

@@ -27,7 +27,7 @@ _HEADERS = (".hpp", ".h")
 _BUILD_FILES = ("setup.py", "CMakeLists.txt")
 _TEXT = re.compile(r"""(["'])((?:/|[A-Za-z]:[/\\])[^"'\n]{1,300}\.[A-Za-z]\w{1,9})\1""")
 _WORD = re.compile(r"\w{1,200}")
-_COMMENT = re.compile(r"#|//|\*|/\*")
+_COMMENT = re.compile(r"#|//|\*")
 _DEFAULT = re.compile(r"declare_parameter|get_param|add_argument|\bparam\s{0,4}[(<]|environ|getenv")
 
 
@@ -54,10 +54,11 @@ def _programs(package: Package) -> Iterator[SourceText]:
     builds = (package.read(name) for name in _BUILD_FILES if package.exists(name))
     texts = (it.text for it in builds if isinstance(it, SourceText))
     words = {word for text in texts for word in _WORD.findall(text)}
+    others = {*_BUILD_FILES, *package.launch_texts}
     for file in package.index.with_suffix(*_SOURCES, *_HEADERS) if words else ():
         stem = posixpath.splitext(posixpath.basename(file.path))[0]
         is_named = file.path.endswith(_HEADERS) or stem in words
-        is_other = file.is_of_tests or file.path in (*_BUILD_FILES, *package.launch_texts)
+        is_other = file.is_of_tests or file.path in others
         source = package.read(file.path) if is_named and not is_other else None
         if isinstance(source, SourceText):
             yield source
